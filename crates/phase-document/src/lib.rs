@@ -4,10 +4,10 @@
 //! - [`plot`] draws bar charts and curves as SVG.
 //! - [`markup`] escapes names that somebody chose, so that none of them becomes markup.
 //!
-//! Key design decision: a document is data, and writing it is a function from data to text. One document serves a
-//! repository (Markdown, with plots as files beside it) and a reader offline (one page with everything in it), and a test
-//! compares text. The trade-off is that plots and pages are assembled manually, without a template engine or a plotting
-//! library, and a whole page is held in memory.
+//! Key design decision: a document is data, and writing it is a function from data to text. One document
+//! serves a repository (Markdown, with plots as files beside it) and a reader offline (one page with
+//! everything in it), and a test compares text. The trade-off is that plots and pages are assembled manually,
+//! without a template engine or a plotting library, and a whole page is held in memory.
 //!
 //! # Example
 //!

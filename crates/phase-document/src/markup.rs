@@ -17,8 +17,9 @@ pub fn escape(text: &str) -> String {
     safe
 }
 
-/// Text escaped for use within a line or a cell of Markdown: it stays text, whatever it contains. Letters that would be markup get a
-/// backslash, those of HTML are written as entities, and line breaks become spaces.
+/// Text escaped for use within a line or a cell of Markdown: it stays text, whatever it contains. Letters
+/// that would be markup get a backslash, those of HTML are written as entities, and line breaks become
+/// spaces.
 #[must_use]
 pub fn escape_markdown(text: &str) -> String {
     let mut safe = String::with_capacity(text.len());

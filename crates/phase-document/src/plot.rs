@@ -113,7 +113,8 @@ pub struct Series<'a> {
     pub points: Vec<(f64, f64)>,
 }
 
-/// Measures of a drawing with two axes (px): of the field between the axes, and of what is left, below and above it.
+/// Measures of a drawing with two axes (px): of the field between the axes, and of what is left, below and
+/// above it.
 const FIELD: (f64, f64) = (480.0, 320.0);
 const MARGIN: f64 = 64.0;
 /// Room for the names of lines beside the field (px): at least, and for each letter.
@@ -124,8 +125,8 @@ const COLOURS: [&str; 7] = ["#4477aa", "#cc6677", "#888888", "#228833", "#aa3377
 /// Maximum number of marks along an axis, beside that at 0.
 const MAX_TICKS: usize = 5;
 
-/// A chart with two axes, x and y, and a line with dots for each series. Points that are not finite are left out; those
-/// beyond an axis are drawn at its end.
+/// A chart with two axes, x and y, and a line with dots for each series. Points that are not finite are left
+/// out; those beyond an axis are drawn at its end.
 #[must_use]
 pub fn line_chart(title: &str, [x_axis, y_axis]: [Axis<'_>; 2], series: &[Series<'_>]) -> String {
     let longest = series.iter().map(|line| line.name.chars().count()).max().unwrap_or_default() as f64;

@@ -41,8 +41,8 @@ pub fn write_json_line(path: &Path, value: &impl Serialize) -> Result<(), WriteE
     write(path, format!("{text}\n").as_bytes())
 }
 
-/// Removes the temporary files of a file that programs have left which were killed while they wrote it. Those that are being written are
-/// locked, and stay.
+/// Removes the temporary files of a file that programs have left which were killed while they wrote it. Those
+/// that are being written are locked, and stay.
 pub fn remove_abandoned(path: &Path) {
     let Some((folder, name)) = path.parent().zip(path.file_name()) else { return };
     let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
@@ -57,7 +57,8 @@ pub fn remove_abandoned(path: &Path) {
         if let Ok(file) = File::open(entry.path())
             && file.try_lock().is_ok()
         {
-            // One that cannot be removed is harmless. It stays locked meanwhile, so that nobody takes it for its own.
+            // One that cannot be removed is harmless. It stays locked meanwhile, so that nobody takes it for
+            // its own.
             let _ = fs::remove_file(entry.path());
         }
     }
@@ -150,8 +151,8 @@ pub fn is_part(name: &str) -> bool {
     name.starts_with('.') && name.ends_with(PART_SUFFIX)
 }
 
-/// Creates the temporary file of a path, and locks it. Between its creation and its lock [`remove_abandoned`] can take it for abandoned;
-/// then another one is created.
+/// Creates the temporary file of a path, and locks it. Between its creation and its lock [`remove_abandoned`]
+/// can take it for abandoned; then another one is created.
 fn create_locked(path: &Path) -> io::Result<(PathBuf, File)> {
     loop {
         let part = part_path(path);
@@ -166,8 +167,9 @@ fn create_locked(path: &Path) -> io::Result<(PathBuf, File)> {
     }
 }
 
-/// A hidden name beside a path. The process number keeps two programs apart. The other number is new each time: whoever has opened a file to
-/// see whether it is abandoned must not remove another that has its name by then.
+/// A hidden name beside a path. The process number keeps two programs apart. The other number is new each
+/// time: whoever has opened a file to see whether it is abandoned must not remove another that has its name
+/// by then.
 fn part_path(path: &Path) -> PathBuf {
     static FILES: AtomicU64 = AtomicU64::new(0);
     let file = FILES.fetch_add(1, Ordering::Relaxed);

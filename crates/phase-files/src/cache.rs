@@ -1,7 +1,7 @@
 //! Results kept for a later run of the same program, in `bincode`.
 //!
-//! No other module knows the encoding. An entry that is foreign, damaged, or of another program or other settings is no
-//! error: it is ignored, and the result is computed again.
+//! No other module knows the encoding. An entry that is foreign, damaged, or of another program or other
+//! settings is no error: it is ignored, and the result is computed again.
 
 use crate::{WriteError, atomic, checksum::sha256};
 use serde::{Serialize, de::DeserializeOwned};
@@ -41,7 +41,8 @@ impl Cache {
         (read == payload.len()).then_some(cached)
     }
 
-    /// Stores a result under an id and seed. Its type must not need to describe itself: `bincode` writes no names of fields.
+    /// Stores a result under an id and seed. Its type must not need to describe itself: `bincode` writes no
+    /// names of fields.
     ///
     /// # Errors
     /// If the result cannot be encoded or the file cannot be written.

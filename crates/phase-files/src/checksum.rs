@@ -53,7 +53,8 @@ impl FileEntry {
     /// Checks that the file is unchanged.
     ///
     /// # Errors
-    /// [`Problem::Unreadable`] if it is gone, [`Problem::NoFile`] if it is something else, [`Problem::Altered`] if it differs.
+    /// [`Problem::Unreadable`] if it is gone, [`Problem::NoFile`] if it is something else,
+    /// [`Problem::Altered`] if it differs.
     pub fn verify(&self, folder: &Path) -> Result<(), FileError> {
         let found = Self::measure(folder, self.path.clone())?;
         if found == *self {

@@ -1,9 +1,9 @@
 //! Faults on demand: a program that stops, or finds its disk full, at a chosen step of writing its files.
 //!
-//! The environment variable [`VARIABLE`] asks for one: `kill@N` ends the process at step N as a signal would, with nothing put in
-//! order; `full@N` makes step N and all later ones fail as on a full disk. Every file takes four steps: to create it, to write and
-//! sync it, to give it its name, and to go on from there; removing something takes one. Without the variable, and it is never set
-//! but by tests, nothing happens.
+//! The environment variable [`VARIABLE`] asks for one: `kill@N` ends the process at step N as a signal would,
+//! with nothing put in order; `full@N` makes step N and all later ones fail as on a full disk. Every file
+//! takes four steps: to create it, to write and sync it, to give it its name, and to go on from there;
+//! removing something takes one. Without the variable, and it is never set but by tests, nothing happens.
 
 use std::{
     io,

@@ -79,7 +79,8 @@ pub enum FolderError {
 /// last.
 ///
 /// # Errors
-/// [`FolderError::IsFile`], [`FolderError::Foreign`], [`FolderError::EarlierRun`] or [`FolderError::Unreadable`].
+/// [`FolderError::IsFile`], [`FolderError::Foreign`], [`FolderError::EarlierRun`] or
+/// [`FolderError::Unreadable`].
 pub fn inspect(path: &Path, last_file: &str) -> Result<Contents, FolderError> {
     let entries = match fs::read_dir(path) {
         Ok(entries) => entries,

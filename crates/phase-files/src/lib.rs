@@ -2,15 +2,16 @@
 //!
 //! - [`atomic`] writes files beside their place, syncs and renames them; [`checksum`] measures them, and
 //!   [`measured`] does so while they are written.
-//! - [`folder`] locks a folder and records which run it belongs to; [`cache`] keeps results of an interrupted run.
+//! - [`folder`] locks a folder and records which run it belongs to; [`cache`] keeps results of an interrupted
+//!   run.
 //! - [`run`] says which run it is, and hashes its description; two runs are compared by it.
 //! - [`json`] reads files of JSON.
 //! - [`fault`] interrupts a program, on demand, at any step of writing.
 //! - [`FileError`] and [`WriteError`] name the file and what is wrong with it in one plain sentence.
 //!
-//! Key design decision: a run may be killed at any moment, and its files are still right. No file under its own name is
-//! ever half-written, and the same command goes on where the last one stopped. The price is a sync and a rename for each
-//! file, and that a file is never changed in place.
+//! Key design decision: a run may be killed at any moment, and its files are still right. No file under its
+//! own name is ever half-written, and the same command goes on where the last one stopped. The price is a
+//! sync and a rename for each file, and that a file is never changed in place.
 //!
 //! The crate accesses the file system only at paths that it is given.
 //!

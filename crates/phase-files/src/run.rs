@@ -12,7 +12,8 @@ const ANY_RUN_FORMAT: &str = "phase-run/";
 
 /// The description of a run: what determines its results, its version of the format, and nothing else.
 ///
-/// A run keeps its description in its folder and in its results. Two runs are the same if their descriptions are.
+/// A run keeps its description in its folder and in its results. Two runs are the same if their descriptions
+/// are.
 #[derive(Clone, PartialEq, Debug, Serialize)]
 #[serde(transparent)]
 pub struct Run(Value);
@@ -39,7 +40,8 @@ impl Run {
         &self.0
     }
 
-    /// Checks that the run that a folder holds is this one. `state` is `an unfinished`, `a finished` or `a part of a`.
+    /// Checks that the run that a folder holds is this one. `state` is `an unfinished`, `a finished` or `a
+    /// part of a`.
     ///
     /// # Errors
     /// [`FolderError::EarlierRun`] or [`FolderError::OtherRun`].
@@ -66,8 +68,8 @@ pub(crate) fn is_earlier(value: &Value) -> bool {
     format.starts_with(ANY_RUN_FORMAT) && format != RUN_FORMAT
 }
 
-/// The canonical form of a value: JSON without spaces, members sorted by name, numbers in the shortest form that reads back
-/// to the same value.
+/// The canonical form of a value: JSON without spaces, members sorted by name, numbers in the shortest form
+/// that reads back to the same value.
 #[must_use]
 pub fn canonical(value: &Value) -> String {
     let mut text = String::new();

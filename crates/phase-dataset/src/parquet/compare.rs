@@ -13,8 +13,9 @@ use std::{
     path::Path,
 };
 
-/// Writes a Parquet file again from the event files it was made from, and compares the bytes. `events` are its events, in
-/// order. No byte of the file is interpreted: whatever it holds, one row group of events is in memory.
+/// Writes a Parquet file again from the event files it was made from, and compares the bytes. `events` are
+/// its events, in order. No byte of the file is interpreted: whatever it holds, one row group of events is in
+/// memory.
 ///
 /// # Errors
 /// If a file cannot be read, or if the Parquet file has other bytes than its events give.

@@ -10,8 +10,8 @@ use phase_event::Recording;
 use phase_files::{FileError, Problem, WriteError, checksum::FileEntry, measured::MeasuredFile};
 use std::{collections::BTreeMap, fs, path::Path};
 
-/// A dataset's Parquet files while they are written, one for each part of the dataset at a time; the events of one row group
-/// of each are in memory. The same events give the same bytes.
+/// A dataset's Parquet files while they are written, one for each part of the dataset at a time; the events
+/// of one row group of each are in memory. The same events give the same bytes.
 pub struct ParquetWriter<'a> {
     folder: &'a Path,
     /// Files not begun yet, by part; the last is the next.

@@ -1,13 +1,13 @@
 //! A dataset's events as Parquet, one row per event, for pandas, `datasets` and other tools that read
 //! columns.
 //!
-//! [`ParquetWriter`] writes them from the events one after the other, [`compare`] writes them again and compares the
-//! bytes, and [`descriptions`] describes every column. `docs/formats.md` has the same table.
+//! [`ParquetWriter`] writes them from the events one after the other, [`compare`] writes them again and
+//! compares the bytes, and [`descriptions`] describes every column. `docs/formats.md` has the same table.
 //!
 //! Key design decision: a column's type is a Rust type. Nested lists of numbers determine both the file's
-//! schema and its levels, without an intermediate array library, and comparing is writing without a file: no reader
-//! has to be protected from what a damaged file declares. The trade-off is that only types known to the module `cell`
-//! can be columns, and that a file is the same only for one version of the Parquet library.
+//! schema and its levels, without an intermediate array library, and comparing is writing without a file: no
+//! reader has to be protected from what a damaged file declares. The trade-off is that only types known to
+//! the module `cell` can be columns, and that a file is the same only for one version of the Parquet library.
 
 mod cell;
 mod column;
@@ -58,8 +58,8 @@ impl ParquetFile {
     }
 }
 
-/// The files that a dataset's events go to, given the number of events in each part: by split, and in the dataset's order
-/// within it.
+/// The files that a dataset's events go to, given the number of events in each part: by split, and in the
+/// dataset's order within it.
 #[must_use]
 pub fn parts(splits: &BTreeMap<Split, usize>) -> Vec<ParquetFile> {
     let mut parts = Vec::new();

@@ -7,7 +7,8 @@ use phase_files::{
 use serde_json::{Value, json};
 use std::path::Path;
 
-/// Python writes the same for these values: `json.dumps(value, sort_keys=True, ensure_ascii=False, separators=(",", ":"))`.
+/// Python writes the same for these values: `json.dumps(value, sort_keys=True, ensure_ascii=False,
+/// separators=(",", ":"))`.
 #[test]
 fn the_canonical_form_is_sorted_and_short() {
     let value = json!({"b": [1, 0.1, 250.0, -0.5], "a": {"z": null, "é\n": "x\"y", "empty": {}}, "c": []});
