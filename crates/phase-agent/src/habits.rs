@@ -3,11 +3,11 @@
 use crate::{objective::Objective, rollout_policy};
 use phase_model::{Action, Entity, State};
 
-/// Prior weight of an action: what the heuristic suggests, going on as before, walking forward, and not resting
-/// while there is a distance to go are likelier.
+/// Prior weight of an action: what the heuristic suggests, going on as before, walking forward, and not
+/// resting while there is a distance to go are likelier.
 ///
-/// Who touches or holds another body does not walk: every direction is as likely, and what did not move it is
-/// not repeated out of habit.
+/// An agent that touches or holds another body does not walk: every direction is as likely, and what did not
+/// move it is not repeated out of habit.
 pub(crate) fn weight(action: Action, objective: &Objective<'_>, state: &State, context: Context) -> f64 {
     let mut weight = 1.0;
     let agent = objective.agent();
@@ -37,7 +37,7 @@ fn walks(objective: &Objective<'_>, state: &State) -> bool {
         && !objective.physics().entities().any(|entity| state.contacts.touching(me, entity))
 }
 
-/// What a prior depends on beside the state.
+/// The circumstances that a prior depends on beside the state.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Context {
     /// The heuristic's action.

@@ -1,8 +1,8 @@
 //! The policy of one PHASE agent, its mind: from belief to subgoal to action (paper, Algorithm 1).
 //!
-//! [`Mind::decide`] plans from every particle of a belief, evaluates the subgoals, and searches for an action with the
-//! particles that agree on the best one. The belief is an argument, so that inference can use a mind with an estimated
-//! one; `phase_minds::Agent` joins a mind and a belief that follows observations.
+//! [`Mind::decide`] plans from every particle of a belief, evaluates the subgoals, and searches for an action
+//! with the particles that agree on the best one. The belief is an argument, so that inference can use a mind
+//! with an estimated one; `phase_minds::Agent` joins a mind and a belief that follows observations.
 //!
 //! Key design decision: a mind has its own model of the world ([`phase_model::Dynamics`]) and no access to
 //! the true state; everything it knows comes from observations. The cost is a second simulation of the
@@ -23,7 +23,8 @@
 //!         {"size_level": 0, "strength_level": 2, "alpha": 0, "start": {"x": 8.5, "y": 14, "angle": 0},
 //!          "goal": {"kind": "agent_on_landmark", "agent": 1, "landmark": 0, "sign": 1}}]}"#,
 //! )?;
-//! let (physics, state) = (scene.physics(), scene.initial_state());
+//! let physics = scene.physics();
+//! let state = scene.initial_state();
 //! let parameters = PhaseParameters { simulations: 100, ..PhaseParameters::default() };
 //! let mut mind = Mind::new(&scene, AgentId::ZERO, Forward::new(&physics), parameters)?;
 //! let observed = observed_set(&physics, &state, AgentId::ZERO);
@@ -39,9 +40,9 @@
 
 pub mod action_set;
 mod habits;
-pub mod mind;
+mod mind;
 pub mod objective;
-pub mod parameters;
+mod parameters;
 pub mod rollout_policy;
 pub mod search_model;
 

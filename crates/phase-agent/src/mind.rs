@@ -46,7 +46,7 @@ impl<D: Dynamics> Mind<D> {
     /// The mind of an agent of a scene.
     ///
     /// # Errors
-    /// Invalid search parameters.
+    /// [`PomcpError`] for parameters that a search cannot have.
     pub fn new(
         scene: &Scene,
         agent: AgentId,
@@ -88,7 +88,7 @@ impl<D: Dynamics> Mind<D> {
         })
     }
 
-    /// Its model of the dynamics.
+    /// The agent's model of the dynamics.
     pub const fn dynamics(&self) -> &D {
         &self.dynamics
     }
@@ -96,7 +96,7 @@ impl<D: Dynamics> Mind<D> {
     /// Chooses the next action; returns it with its explanation.
     ///
     /// # Errors
-    /// As POMCP's search.
+    /// [`PomcpError`], if the search fails.
     pub fn decide(
         &mut self,
         belief_view: BeliefView<'_>,
@@ -182,7 +182,8 @@ impl<D: Dynamics> Mind<D> {
         }
         let other = self.agent.other();
         let other_goal = Subgoal::Achieve(Literal::from(self.goals[other]));
-        let (physics, parameters) = (&self.physics, &self.parameters);
+        let physics = &self.physics;
+        let parameters = &self.parameters;
         let navigator = &mut self.navigator;
         let objective = Objective::new(physics, navigator, &roots[0], self.agent, subgoal, parameters);
         let other_objective = Objective::new(physics, navigator, &roots[0], other, other_goal, parameters);
@@ -220,7 +221,8 @@ impl<D: Dynamics> Mind<D> {
     }
 }
 
-/// Draws an index with a probability proportional to its visits to the power of `exponent`; `None` if all are zero.
+/// Draws an index with a probability proportional to its visits to the power of `exponent`; `None` if all are
+/// zero.
 fn sample(visits: &[f64], exponent: f64, random: &mut impl Rng) -> Option<usize> {
     let most = visits.iter().copied().fold(0.0, f64::max);
     if most <= 0.0 {
@@ -256,8 +258,8 @@ fn summary(candidate: &Candidate) -> SubgoalValue {
     SubgoalValue { subgoal: candidate.subgoal, value: candidate.value, particles: candidate.particles.len() }
 }
 
-/// Entities on whose position all particles agree, to within `agreement` (u). An agent need not verify the position of an object it has
-/// just put down.
+/// Entities on whose position all particles agree, to within `agreement` (u). An agent need not verify the
+/// position of an object it has just put down.
 fn localised(physics: &PhysicsConfig, particles: &[State], agreement: f32) -> BodySet {
     let mut known = BodySet::EMPTY;
     let Some(first) = particles.first() else { return known };

@@ -12,8 +12,8 @@ pub enum Foresight {
     Coarse,
     /// [`Dynamics::step`](phase_model::Dynamics::step), the exact dynamics.
     Exact,
-    /// Coarse steps in a world without collisions between bodies: agents and objects pass through each other, and
-    /// only walls stop them. Whoever makes a mind gives it such dynamics, as `phase-minds` does.
+    /// Coarse steps in a world without collisions between bodies: agents and objects pass through each other,
+    /// and only walls stop them. Whoever makes a mind gives it such dynamics, as `phase-minds` does.
     Points,
 }
 
@@ -34,9 +34,9 @@ impl Foresight {
 
 /// The parameters of a PHASE mind: every number that shapes its decisions.
 ///
-/// Those of belief and search, up to `directions`, are the paper's where it gives them; `cargo xtask fit-minds` fits the
-/// others, and `docs/minds.md` says what was fitted to which events. Ranges are checked where parameters enter a
-/// program, by `phase_minds::MindParameters::validate`.
+/// Those of belief and search, up to `directions`, are the paper's where it gives them; `cargo xtask
+/// fit-minds` fits the others, and `docs/minds.md` says what was fitted to which events. Ranges are checked
+/// where parameters enter a program, by `phase_minds::MindParameters::validate`.
 #[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PhaseParameters {
@@ -57,8 +57,8 @@ pub struct PhaseParameters {
     pub c_base: f64,
     /// Discount of the next step's reward relative to this one's, 0 to 1.
     pub discount: f64,
-    /// Exponent of the visits in the choice of an action: 1 draws in proportion to them, a large one always takes the
-    /// most visited; at least 0.
+    /// Exponent of the visits in the choice of an action: 1 draws in proportion to them, a large one always
+    /// takes the most visited; at least 0.
     pub decisiveness: f64,
     /// Share of rollout actions taken from the heuristic instead of uniformly sampled, 0 to 1.
     pub heuristic_share: f64,
@@ -76,36 +76,41 @@ pub struct PhaseParameters {
     pub rest_prior: f64,
     /// Distance to go (u) up to which stopping and coasting have the prior of a push; at least 0.
     pub rest_distance: f32,
-    /// Speed (u/s) above which a body is in motion: an agent then repeats its last action out of habit, and another agent
-    /// is expected to pursue its goal; at least 0.
+    /// Speed (u/s) above which a body is in motion: an agent then repeats its last action out of habit, and
+    /// another agent is expected to pursue its goal; at least 0.
     pub moving_speed: f32,
     /// Further steps for which the distance at the end of a rollout is charged; at least 0.
     pub horizon_steps: f64,
-    /// p: share of the imagined steps in which the other agent pursues its own goal instead of coasting, 0 to 1.
+    /// p: share of the imagined steps in which the other agent pursues its own goal instead of coasting, 0 to
+    /// 1.
     pub other_initiative: f64,
-    /// Distance (u) between the believed positions of an entity up to which its position counts as known; at least 0.
+    /// Distance (u) between the believed positions of an entity up to which its position counts as known; at
+    /// least 0.
     pub agreement: f32,
-    /// Distance (u) between the believed positions of an unseen target up to which they are searched together; at least 0.
+    /// Distance (u) between the believed positions of an unseen target up to which they are searched
+    /// together; at least 0.
     pub colocation: f32,
     /// Distance (u) ahead on a way at which the next waypoint lies; above 0.
     pub look_ahead: f32,
-    /// Deviation from the direction of the waypoint (rad) below which an agent pushes forward instead of turning; at least 0.
+    /// Deviation from the direction of the waypoint (rad) below which an agent pushes forward instead of
+    /// turning; at least 0.
     pub heading_tolerance: f32,
     /// Distance to the waypoint (u) below which an agent stops; at least 0.
     pub arrival_distance: f32,
     /// Share of the grab reach within which an object counts as reached, 0 to 1.
     pub grasp_reach: f32,
-    /// Distance (in widths of the agent) from a door that is too narrow for it at which an agent waits, so that others can
-    /// come through; at least 0.
+    /// Distance (in widths of the agent) from a door that is too narrow for it at which an agent waits, so
+    /// that others can come through; at least 0.
     pub waiting_widths: f32,
-    /// Spacing (u) of the points of a path at which a body could be cut off, and of a push at which it could be stopped,
-    /// 0.1 to 10.
+    /// Spacing (u) of the points of a path at which a body could be cut off, and of a push at which it could
+    /// be stopped, 0.1 to 10.
     pub interception_spacing: f32,
     /// Length (u) of a push that is considered; at least 0.
     pub push_length: f32,
     /// Distance to its post (u) below which a guard next to a body turns on that body; at least 0.
     pub post_distance: f32,
-    /// Clearance (u) that an agent leaves between itself and the path of another that it lets pass; at least 0.
+    /// Clearance (u) that an agent leaves between itself and the path of another that it lets pass; at least
+    /// 0.
     pub clearance: f32,
     /// Length (u) of a step away from a pursuer that is tried; at least 0.
     pub escape_length: f32,
@@ -113,13 +118,14 @@ pub struct PhaseParameters {
     pub obstruction: f32,
     /// Cost of grasping an object, and of releasing it (u), of plans and on the way; at least 0.
     pub grasp: f32,
-    /// Cost of turning (u/rad): of an object and its holders about the object. An agent that faces away from where it
-    /// goes is charged as much as one radian; at least 0.
+    /// Cost of turning (u/rad): of an object and its holders about the object. An agent that faces away from
+    /// where it goes is charged as much as one radian; at least 0.
     pub turning: f32,
-    /// Cost of what is nearly impossible (u): a door that is too narrow, a load that is too heavy; at least 0.
+    /// Cost of what is nearly impossible (u): a door that is too narrow, a load that is too heavy; at least
+    /// 0.
     pub impassable: f32,
-    /// Cost of 1 u of travel for or against the other's goal, relative to 1 u that it spares or costs the other,
-    /// 0 to 1.
+    /// Cost of 1 u of travel for or against the other's goal, relative to 1 u that it spares or costs the
+    /// other, 0 to 1.
     pub effort: f32,
 }
 

@@ -3,9 +3,9 @@
 use crate::objective::Objective;
 use phase_model::{Action, AgentId, Entity, State, Vec2, arena};
 
-/// The action of the heuristic: attach or detach where that is the subgoal; stop at the end of the way; with an
-/// object in hand, apply the push closest to the direction of the waypoint; with free hands, turn until the
-/// heading error is small, then push forward.
+/// The action of the heuristic: attach or detach where that is the subgoal; stop at the end of the way; with
+/// an object in hand, apply the push closest to the direction of the waypoint; with free hands, turn until
+/// the heading error is small, then push forward.
 #[must_use]
 pub fn action(objective: &Objective<'_>, state: &State) -> Action {
     let agent = objective.agent();

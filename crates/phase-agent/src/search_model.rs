@@ -39,10 +39,10 @@ pub struct SearchModel<'a, D> {
 
 impl<D> SearchModel<'_, D> {
     /// Another agent that was in motion at the root pursues its own goal by the heuristic in a share of the
-    /// steps, evenly spaced, and coasts in the others; one at rest stays at rest. While the two touch, or hold
-    /// the same object, it follows the heuristic in every step. A model that only coasts believes that every
-    /// push will do, and two who push each other would go on for ever. Nothing is drawn, so that the tree's
-    /// steps can be cached.
+    /// steps, evenly spaced, and coasts in the others; one at rest stays at rest. While the two touch, or
+    /// hold the same object, it follows the heuristic in every step. A model that only coasts believes that
+    /// every push will do, and two who push each other would go on for ever. Nothing is drawn, so that the
+    /// tree's steps can be cached.
     fn other_action(&self, search_state: &SearchState) -> Action {
         let p = self.objective.parameters().other_initiative;
         let count = |steps: u16| libm::floor(f64::from(steps) * p);

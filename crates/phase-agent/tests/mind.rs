@@ -114,7 +114,8 @@ fn rewards_follow_equation_1() {
     scene.agents[1].start.position = Vec2::new(8.5, 19.5);
     // Weak enough that one push does not carry it off the landmark.
     scene.agents[0].strength = Strength::Weak;
-    let (physics, state) = (scene.physics(), scene.initial_state());
+    let physics = scene.physics();
+    let state = scene.initial_state();
     let forward = Forward::new(&physics);
     let subgoal = achieve(Predicate::On(Entity::Agent(AgentId::ZERO), LandmarkId::TOP_RIGHT));
     let objective = compiled(&physics, &scene, &state, subgoal);
@@ -153,7 +154,8 @@ fn rewards_follow_equation_1() {
 
 /// The first decision of agent 0 with a small search.
 fn decide(scene: &Scene, seed: u64) -> (Action, Subgoal) {
-    let (physics, state) = (scene.physics(), scene.initial_state());
+    let physics = scene.physics();
+    let state = scene.initial_state();
     let observation = observe(&physics, &state, AgentId::ZERO);
     let parameters = PhaseParameters { simulations: 300, particles: 20, ..PhaseParameters::default() };
     let mut random = stream(seed, Purpose::Belief, 0);

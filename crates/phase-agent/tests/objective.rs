@@ -7,8 +7,8 @@ use phase_model::{
 };
 use phase_navigation::{NavigationCosts, Navigator};
 
-/// A narrow door (x 6 to 8.5, y 12) between rooms 0 (above) and 3; agent 0 of some size, a small agent 1, a small
-/// object.
+/// A narrow door (x 6 to 8.5, y 12) between rooms 0 (above) and 3; agent 0 of some size, a small agent 1, a
+/// small object.
 fn physics(size: Size) -> PhysicsConfig {
     PhysicsConfig {
         walls: layout().walls(),
@@ -138,7 +138,8 @@ fn a_load_is_not_pulled_to_its_place_from_where_there_is_no_room() {
         let load = arena::LANDMARKS[2] - Vec2::new(3.0, -3.0);
         evaluate(Size::Huge, &carrying(load - towards * arm, towards, arm), bring).0
     };
-    let (before, beyond) = (holding(Vec2::NEG_Y), holding(Vec2::Y));
+    let before = holding(Vec2::NEG_Y);
+    let beyond = holding(Vec2::Y);
     assert!(beyond > before + 0.5, "from below the load cannot come near enough: {before} {beyond}");
 }
 

@@ -81,7 +81,8 @@ fn event(physics: &PhysicsConfig, random: &mut Pcg64Mcg, total: &mut Total) {
         }
         total.predicting += start.elapsed();
         // The minimum of three, so that other programs on the machine do not affect it.
-        let (before, chance) = (belief.clone(), random.clone());
+        let before = belief.clone();
+        let chance = random.clone();
         let spent = (0..3)
             .map(|_| {
                 belief.clone_from(&before);

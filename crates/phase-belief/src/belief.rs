@@ -93,8 +93,8 @@ impl Belief {
         &self.particles
     }
 
-    /// When the agent last saw each cell. A cell that a known body covers entirely counts as seen, since
-    /// nothing else can be there.
+    /// The step at which the agent last saw each cell. A cell that a known body covers entirely counts as
+    /// seen, since nothing else can be there.
     #[must_use]
     pub fn memory(&self) -> &CellMemory {
         &self.memory

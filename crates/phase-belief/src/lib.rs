@@ -22,7 +22,8 @@
 //! use phase_perception::{observe, sees};
 //!
 //! let body = AgentBody { radius: 0.8, max_force: 450.0 };
-//! let physics = PhysicsConfig { walls: Vec::new(), agents: [body; 2], object_radii: [0.8; 2], object_count: 1 };
+//! let object_radii = [0.8; 2];
+//! let physics = PhysicsConfig { walls: Vec::new(), agents: [body; 2], object_radii, object_count: 1 };
 //! let positions = [Vec2::new(16.0, 9.0), Vec2::new(16.0, 15.0), Vec2::new(16.0, 4.0), Vec2::ZERO];
 //! let state = State::new(positions.map(|position| Body::at_rest(position, 0.0)));
 //!
@@ -58,9 +59,9 @@
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 
-pub mod belief;
+mod belief;
 mod consistency;
-pub mod memory;
+mod memory;
 mod predict;
 mod resampling;
 mod weights;

@@ -134,7 +134,8 @@ impl<'a> PoseSampler<'a> {
         if let Some(body) = possible.kept {
             return (body, true);
         }
-        let (mut clear, mut inside) = (Reservoir::default(), Reservoir::default());
+        let mut clear = Reservoir::default();
+        let mut inside = Reservoir::default();
         for cell in Cell::all() {
             for body in grid_poses(cell, entity, rng) {
                 let outline = Outline::of(physics, entity, &body);
@@ -167,7 +168,8 @@ fn grid_poses(
     rng: &mut impl Rng,
 ) -> [Body; GRID_POSES_PER_SIDE * GRID_POSES_PER_SIDE] {
     core::array::from_fn(|place| {
-        let (column, row) = (place % GRID_POSES_PER_SIDE, place / GRID_POSES_PER_SIDE);
+        let column = place % GRID_POSES_PER_SIDE;
+        let row = place / GRID_POSES_PER_SIDE;
         let offset = (Vec2::new(column as f32, row as f32) + 0.5) / GRID_POSES_PER_SIDE as f32;
         Body::at_rest(cell.min() + offset, random_angle(entity, rng))
     })

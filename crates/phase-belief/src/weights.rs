@@ -14,7 +14,8 @@ pub(crate) struct Weights {
 
 impl Weights {
     pub(crate) fn new(memory: &CellMemory, entity: Entity) -> Self {
-        let (mut weights, mut sums) = ([0.0; CELL_COUNT], [0.0; CELL_COUNT]);
+        let mut weights = [0.0; CELL_COUNT];
+        let mut sums = [0.0; CELL_COUNT];
         let mut sum = 0.0;
         for cell in Cell::all() {
             let weight = memory.weight(entity, cell);

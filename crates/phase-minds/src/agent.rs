@@ -9,8 +9,9 @@ use phase_pomcp::PomcpError;
 
 /// One agent of Algorithm 1: it perceives, believes and decides.
 ///
-/// Everything that it knows comes from observations. Whoever has the true state makes them by the senses of the agent's
-/// kind: the first by [`observe()`](crate::observe()), those after an action by [`observe`](Self::observe).
+/// Everything that it knows comes from observations. Whoever has the true state makes them by the senses of
+/// the agent's kind: the first by [`observe()`](crate::observe()), those after an action by
+/// [`observe`](Self::observe).
 #[derive(Debug)]
 pub struct Agent {
     mind: Box<dyn Mind>,

@@ -1,13 +1,14 @@
 //! One interface to all minds: observations go in; actions, beliefs and reasons come out.
 //!
 //! Everything that simulates or infers uses [`Agent`], or its two halves, which inference needs one by one: a
-//! [`BeliefState`], which depends on observations alone and is shared by all hypotheses about goals, and a [`Mind`], which
-//! decides for a given belief. [`belief()`] and [`mind()`] make those of the kind that the parameters name
-//! ([`MindKind`]): our own, `phase-agent`, or the published simulator's, `phase-published`.
+//! [`BeliefState`], which depends on observations alone and is shared by all hypotheses about goals, and a
+//! [`Mind`], which decides for a given belief. [`belief()`] and [`mind()`] make those of the kind that the
+//! parameters name ([`MindKind`]): our own, `phase-agent`, or the published simulator's, `phase-published`.
 //!
-//! Key design decision: a mind brings its own senses ([`BeliefState::observe`]), because the two kinds differ in what they
-//! see and feel. The trade-off is that whoever holds the true state must hand it to them; nothing but the observation is
-//! kept of it. Minds are chosen at run time, so they are trait objects, and all random draws come from one kind of generator.
+//! Key design decision: a mind brings its own senses ([`BeliefState::observe`]), because the two kinds differ
+//! in what they see and feel. The trade-off is that whoever holds the true state must hand it to them;
+//! nothing but the observation is kept of it. Minds are chosen at run time, so they are trait objects, and
+//! all random draws come from one kind of generator.
 //!
 //! A mind of either kind that sees its landmark ahead walks there:
 //!
@@ -56,12 +57,12 @@ use phase_model::{Action, AgentId, Layout, PhysicsConfig, Scene, State, random::
 use phase_perception::Observation;
 use phase_pomcp::PomcpError;
 
-/// How an agent decides.
+/// The half of an agent that decides, for a given belief.
 pub trait Mind: core::fmt::Debug + Send {
     /// Chooses the next action on a belief; returns it with its explanation.
     ///
     /// # Errors
-    /// As POMCP's search.
+    /// [`PomcpError`], if the search fails.
     fn decide(
         &mut self,
         belief: BeliefView<'_>,
@@ -69,9 +70,10 @@ pub trait Mind: core::fmt::Debug + Send {
     ) -> Result<(Action, Thought), PomcpError>;
 }
 
-/// What an agent perceives and believes. It depends on observations, own actions and its random stream alone.
+/// The half of an agent that perceives and believes. It depends on observations, own actions and its random
+/// stream alone.
 pub trait BeliefState: core::fmt::Debug + Send + Sync {
-    /// What the agent observes of a state of the world.
+    /// The observation that the agent makes of a state of the world.
     fn observe(&self, state: &State) -> Observation;
 
     /// Updates the belief with the observation after an action.
@@ -80,7 +82,7 @@ pub trait BeliefState: core::fmt::Debug + Send + Sync {
     /// Possible states of the world, all equally likely.
     fn particles(&self) -> &[State];
 
-    /// A copy.
+    /// A copy of this belief.
     fn boxed(&self) -> Box<dyn BeliefState>;
 }
 
@@ -101,8 +103,8 @@ pub fn mind(scene: &Scene, agent: AgentId, parameters: &MindParameters) -> Resul
     }
 }
 
-/// The mind of an agent of a scene, which looks up searches that other minds with this memo have done. It decides as it
-/// would without; only published minds search for what other intents would search for, too.
+/// The mind of an agent of a scene, which looks up searches that other minds with this memo have done. It
+/// decides as it would without; only published minds search for what other intents would search for, too.
 ///
 /// # Errors
 /// [`PomcpError`] for parameters that [`MindParameters::validate`] refuses and a search cannot have.
@@ -127,7 +129,8 @@ pub fn observe(kind: MindKind, physics: &PhysicsConfig, state: &State, agent: Ag
     }
 }
 
-/// The belief of an agent after its first observation, which has to be made by the senses of its kind ([`observe()`]).
+/// The belief of an agent after its first observation, which has to be made by the senses of its kind
+/// ([`observe()`]).
 #[must_use]
 pub fn belief(
     layout: Layout,

@@ -33,9 +33,9 @@ impl MindKind {
 
 /// The parameters of a mind: its kind, and every number that shapes the behaviour of minds of that kind.
 ///
-/// In a file they are one object, which names its `kind`, `phase` or `published`, and has all parameters of that kind and
-/// no others. Reading them checks their ranges, as [`from_overrides`](Self::from_overrides) does for some of them and
-/// [`validate`](Self::validate) for those that a program has set.
+/// In a file they are one object, which names its `kind`, `phase` or `published`, and has all parameters of
+/// that kind and no others. Reading them checks their ranges, as [`from_overrides`](Self::from_overrides)
+/// does for some of them and [`validate`](Self::validate) for those that a program has set.
 ///
 /// ```
 /// use phase_minds::{MindKind, MindParameters};
@@ -43,7 +43,8 @@ impl MindKind {
 /// let quick = MindParameters::from_overrides(serde_json::json!({"kind": "published", "simulations": 100}))?;
 /// assert_eq!(quick, MindParameters::of(MindKind::Published).with_simulations(100));
 /// let foreign = MindParameters::from_overrides(serde_json::json!({"kind": "published", "effort": 0.5}));
-/// assert_eq!(foreign.unwrap_err().to_string(), "field `effort` is a parameter of phase minds, not of published minds");
+/// let rule = "field `effort` is a parameter of phase minds, not of published minds";
+/// assert_eq!(foreign.unwrap_err().to_string(), rule);
 /// # Ok::<(), phase_minds::ParametersError>(())
 /// ```
 #[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
@@ -215,12 +216,12 @@ impl MindParameters {
         self
     }
 
-    /// Parameters from a JSON object that has some of them: the member `kind` names the kind (`phase` if absent), the other
-    /// members replace the defaults of that kind, each by its name in files.
+    /// Parameters from a JSON object that has some of them: the member `kind` names the kind (`phase` if
+    /// absent), the other members replace the defaults of that kind, each by its name in files.
     ///
     /// # Errors
-    /// [`ParametersError`], if `given` is no object, or a member is a parameter of another kind, no parameter at all, of the
-    /// wrong type or out of its range.
+    /// [`ParametersError`], if `given` is no object, or a member is a parameter of another kind, no parameter
+    /// at all, of the wrong type or out of its range.
     pub fn from_overrides(given: Value) -> Result<Self, ParametersError> {
         let Value::Object(mut given) = given else { return Err(ParametersError::NoObject) };
         let kind = match given.remove("kind") {
@@ -268,7 +269,8 @@ impl From<PublishedParameters> for MindParameters {
     }
 }
 
-/// Puts the members of an object in the place of the parameters of their names, one by one, so that an error names its member.
+/// Puts the members of an object in the place of the parameters of their names, one by one, so that an error
+/// names its member.
 fn replace<T: Serialize + DeserializeOwned>(
     mut parameters: T,
     kind: MindKind,

@@ -37,7 +37,8 @@ fn every_kind_walks_to_its_landmark() {
     for kind in MindKind::ALL {
         let scene = scene("null");
         let forward = phase_forward::Forward::new(&scene.physics());
-        let (mut state, mut random) = (scene.initial_state(), random(1));
+        let mut state = scene.initial_state();
+        let mut random = random(1);
         let first = observe(kind, &scene.physics(), &state, AgentId::ZERO);
         let mut agent = Agent::new(&scene, &parameters(kind), &first, &mut random).unwrap();
         let goal = scene.goals()[0];

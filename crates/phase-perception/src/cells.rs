@@ -34,7 +34,8 @@ impl Cell {
         let max = if min.cmple(max).all() { max } else { arena::MIN };
         let low = (min - arena::MIN).floor().max(Vec2::ZERO);
         let high = (max - arena::MIN).ceil().min(Vec2::splat(CELLS_PER_SIDE as f32)).max(low);
-        let (columns, rows) = ((low.x as usize)..(high.x as usize), (low.y as usize)..(high.y as usize));
+        let columns = (low.x as usize)..(high.x as usize);
+        let rows = (low.y as usize)..(high.y as usize);
         rows.flat_map(move |row| {
             columns.clone().map(move |column| Self((row * CELLS_PER_SIDE + column) as u16))
         })
@@ -55,7 +56,8 @@ impl Cell {
     /// Lower left corner (u).
     #[must_use]
     pub fn min(self) -> Vec2 {
-        let (row, column) = (self.index() / CELLS_PER_SIDE, self.index() % CELLS_PER_SIDE);
+        let row = self.index() / CELLS_PER_SIDE;
+        let column = self.index() % CELLS_PER_SIDE;
         arena::MIN + Vec2::new(column as f32, row as f32)
     }
 

@@ -11,7 +11,8 @@
 //! use phase_perception::observe;
 //!
 //! let body = AgentBody { radius: 0.8, max_force: 450.0 };
-//! let physics = PhysicsConfig { walls: Vec::new(), agents: [body; 2], object_radii: [0.8; 2], object_count: 1 };
+//! let object_radii = [0.8; 2];
+//! let physics = PhysicsConfig { walls: Vec::new(), agents: [body; 2], object_radii, object_count: 1 };
 //! let places = [Vec2::new(16.0, 9.0), Vec2::new(16.0, 15.0), Vec2::new(16.0, 4.0), Vec2::ZERO];
 //! let state = State::new(places.map(|place| Body::at_rest(place, 0.0)));
 //!
@@ -53,7 +54,7 @@
 
 pub mod cells;
 pub mod footprint;
-pub mod observation;
+mod observation;
 pub mod viewpoint;
 
 pub use cells::{Cell, CellSet};

@@ -13,8 +13,8 @@ pub fn observe(physics: &PhysicsConfig, state: &State, agent: AgentId) -> Observ
     Observation::of(physics, state, agent, visible, observed_set(physics, state, agent))
 }
 
-/// Which entities an agent observes, itself included: the coarse observation for simulated states. Equal to
-/// [`Observation::observed`] of [`observe`], but tests only the cells that bodies lie on.
+/// The entities that an agent observes, itself included: the coarse observation for simulated states. Equal
+/// to [`Observation::observed`] of [`observe`], but tests only the cells that bodies lie on.
 #[must_use]
 pub fn observed_set(physics: &PhysicsConfig, state: &State, agent: AgentId) -> BodySet {
     let mut observed = contact_closure(physics, state, [Entity::Agent(agent)].into_iter().collect());
@@ -47,7 +47,8 @@ pub struct Observation {
 }
 
 impl Observation {
-    /// What an agent observes of a state if these cells are visible to it and these entities observed.
+    /// The observation that an agent makes of a state if these cells are visible to it and these entities
+    /// observed.
     #[must_use]
     pub fn of(
         physics: &PhysicsConfig,
@@ -61,8 +62,8 @@ impl Observation {
         Self { agent, visible, observed, touched, known: observed_part(state, observed) }
     }
 
-    /// An observation from its parts: `known` holds the bodies, grips and contacts of the entities observed; whatever else it holds
-    /// is ignored.
+    /// An observation from its parts: `known` holds the bodies, grips and contacts of the entities observed;
+    /// whatever else it holds is ignored.
     #[must_use]
     pub fn from_parts(
         agent: AgentId,

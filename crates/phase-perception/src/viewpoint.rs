@@ -113,7 +113,8 @@ const LONGEST_CORNER: f32 = 1.803;
 
 /// Whether a direction lies strictly inside the cone around a unit vector.
 fn in_cone(ray: Vec2, axis: Vec2) -> bool {
-    let (ahead, across) = (axis.dot(ray), axis.perp_dot(ray));
+    let ahead = axis.dot(ray);
+    let across = axis.perp_dot(ray);
     ahead > 0.0 && across * across < TAN_SQUARED * (ahead * ahead)
 }
 
@@ -121,7 +122,8 @@ fn in_cone(ray: Vec2, axis: Vec2) -> bool {
 /// a wall's end is blocked.
 fn blocks(wall: Segment, apex: Vec2, point: Vec2) -> bool {
     let along = wall.b - wall.a;
-    let (eye_side, point_side) = (along.perp_dot(apex - wall.a), along.perp_dot(point - wall.a));
+    let eye_side = along.perp_dot(apex - wall.a);
+    let point_side = along.perp_dot(point - wall.a);
     if eye_side * point_side >= 0.0 {
         return false;
     }

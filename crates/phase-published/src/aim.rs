@@ -1,4 +1,4 @@
-//! What the published planner's high level asks of its low level.
+//! The subgoals that the published planner's high level gives to its low level.
 
 use crate::rooms::Rooms;
 use phase_model::{
@@ -6,7 +6,7 @@ use phase_model::{
     RoomId, Sign, State, Subgoal, Vec2, arena, layout::room_of,
 };
 
-/// What an object in the right room is worth, as a distance (u).
+/// Worth of an object in the right room, as a distance (u).
 const ROOM_BONUS: f32 = 282.8;
 
 /// A subgoal of the published planner.
@@ -28,11 +28,12 @@ pub enum Aim {
     Grab(AgentId, ObjectId, Sign),
 }
 
-/// What an agent whose hands play no part can do.
+/// The actions of an agent whose hands play no part.
 const WALKING: [Action; 5] = [Action::TurnLeft, Action::TurnRight, Action::Up, Action::Stop, Action::NoForce];
 
 impl Aim {
-    /// The actions that the low level chooses from. One who wrestles for a landmark may push in all directions.
+    /// The actions that the low level chooses from. One who wrestles for a landmark may push in all
+    /// directions.
     #[must_use]
     pub fn actions(
         self,
@@ -43,7 +44,8 @@ impl Aim {
         state: &State,
     ) -> &'static [Action] {
         const ALL: &[Action; 14] = &Action::ALL;
-        let (with_attach, without_hands) = (&ALL[..13], &ALL[..12]);
+        let with_attach = &ALL[..13];
+        let without_hands = &ALL[..12];
         let holding = state.held_object(own).is_some();
         match self {
             Self::Stop => &[Action::Stop],
@@ -98,8 +100,8 @@ impl Aim {
         }
     }
 
-    /// The reward of a state and an action: the distance as a share of the arena's diagonal, and the cost of a push that is
-    /// not forward.
+    /// The reward of a state and an action: the distance as a share of the arena's diagonal, and the cost of
+    /// a push that is not forward.
     #[must_use]
     pub fn reward(self, rooms: &Rooms, state: &State, action: Action) -> f64 {
         let sign = f64::from(self.sign().value());
@@ -119,7 +121,7 @@ impl Aim {
         }
     }
 
-    /// The same as a subgoal of the paper. Being in a room is being close to its landmark.
+    /// This subgoal as one of the paper. Being in a room is being close to its landmark.
     #[must_use]
     pub fn subgoal(self) -> Subgoal {
         let room = |room: RoomId| PredicateTarget::Landmark(room.landmark());

@@ -26,8 +26,9 @@ pub struct Belief {
 }
 
 impl Belief {
-    /// The belief after the first observation: unseen bodies lie at integer places of the middle 16 × 16 u, facing up, at
-    /// rest, and may overlap anything; then the belief is updated as if the agent had let a step pass.
+    /// The belief after the first observation: unseen bodies lie at integer places of the middle 16 × 16 u,
+    /// facing up, at rest, and may overlap anything; then the belief is updated as if the agent had let a
+    /// step pass.
     #[must_use]
     pub fn new(
         layout: Layout,
@@ -65,8 +66,8 @@ impl Belief {
         belief
     }
 
-    /// One step: every particle is moved on by the imagined dynamics, in which the other agent coasts, then overwritten with
-    /// the observation, and unseen bodies that contradict it are redrawn.
+    /// One step: every particle is moved on by the imagined dynamics, in which the other agent coasts, then
+    /// overwritten with the observation, and unseen bodies that contradict it are redrawn.
     pub fn update(&mut self, action: Action, observation: &Observation, random: &mut impl Rng) {
         self.seen = self.seen.union(&observation.visible);
         let mut actions = [Action::NoForce; AGENT_COUNT];
@@ -85,7 +86,7 @@ impl Belief {
         }
     }
 
-    /// What the agent observes of a state.
+    /// The observation that the agent makes of a state.
     #[must_use]
     pub fn observe(&self, state: &State) -> Observation {
         observe(&self.physics, state, self.agent)

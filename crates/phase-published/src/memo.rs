@@ -1,8 +1,8 @@
-//! What searches have found, kept for other minds that would search for the same.
+//! The findings of searches, kept for other minds that would search for the same.
 //!
-//! Many intents lead to one subgoal: whoever wants an object that it does not see looks for it, wherever it is to go. An
-//! inference lets minds with every intent decide in the same states with the same random numbers, so most of their searches
-//! are one search.
+//! Many intents lead to one subgoal: whoever wants an object that it does not see looks for it, wherever it
+//! is to go. An inference lets minds with every intent decide in the same states with the same random
+//! numbers, so most of their searches are one search.
 
 use crate::{aim::Aim, parameters::PublishedParameters};
 use phase_event::ActionEvaluation;
@@ -12,15 +12,16 @@ use std::{
     sync::{Arc, Mutex, PoisonError},
 };
 
-/// The searches of the minds that share it. A mind with it decides exactly as it would without. It grows with the number
-/// of different searches, so it should live no longer than the event that they are about.
+/// The searches of the minds that share it. A mind with it decides exactly as it would without. It grows with
+/// the number of different searches, so it should live no longer than the event that they are about.
 #[derive(Clone, Default, Debug)]
 pub struct SearchMemo(Arc<Mutex<Entries>>);
 
 /// Searches by what tells them apart at a glance.
 type Entries = BTreeMap<(AgentId, u64, Aim), Vec<Entry>>;
 
-/// Everything that determines a search besides the agent, the random numbers and the subgoal, and what was found.
+/// Everything that determines a search besides the agent, the random numbers and the subgoal, and what was
+/// found.
 #[derive(Debug)]
 struct Entry {
     physics: PhysicsConfig,
@@ -57,7 +58,7 @@ impl Search<'_> {
 }
 
 impl SearchMemo {
-    /// What this search has found, if it was done before.
+    /// The findings of this search, if it was done before.
     pub(crate) fn recall(&self, search: &Search<'_>) -> Option<Vec<ActionEvaluation>> {
         // Entries are only ever added whole, so those of a thread that panicked are sound.
         let entries = self.0.lock().unwrap_or_else(PoisonError::into_inner);

@@ -32,7 +32,7 @@ impl Mind {
     /// The mind of an agent of a scene.
     ///
     /// # Errors
-    /// Invalid search parameters.
+    /// [`PomcpError`] for parameters that a search cannot have.
     pub fn new(scene: &Scene, agent: AgentId, parameters: PublishedParameters) -> Result<Self, PomcpError> {
         let physics = scene.physics();
         let pomcp = Pomcp::new(PomcpSettings {
@@ -60,7 +60,8 @@ impl Mind {
         })
     }
 
-    /// The same mind, which looks up a search that another mind with this memo has done. It decides as it would without.
+    /// This mind with a memo, in which it looks up a search that another mind has done. It decides as it
+    /// would without.
     #[must_use]
     pub fn sharing(self, memo: SearchMemo) -> Self {
         Self { memo: Some(memo), ..self }
@@ -72,11 +73,11 @@ impl Mind {
         self.rules.aim(state)
     }
 
-    /// Chooses the next action, given possible states of the world that are all equally likely; returns it with its
-    /// explanation. Without particles the agent stops.
+    /// Chooses the next action, given possible states of the world that are all equally likely; returns it
+    /// with its explanation. Without particles the agent stops.
     ///
     /// # Errors
-    /// As POMCP's search.
+    /// [`PomcpError`], if the search fails.
     pub fn decide(
         &mut self,
         particles: &[State],
@@ -85,7 +86,8 @@ impl Mind {
         // Each decision draws one number, so the length of a search does not affect later ones.
         let seed = random.next_u64();
         let aims = self.aims(particles);
-        let (agent, lambda) = (self.rules.agent, self.parameters.lambda);
+        let agent = self.rules.agent;
+        let lambda = self.parameters.lambda;
         let proposals = proposals(&self.rules.rooms, agent, particles, &aims, lambda);
         let Some(chosen) = pursued(&proposals, agent) else { return Ok((Action::Stop, Thought::IDLE)) };
         let aim = chosen.aim;

@@ -2,9 +2,9 @@
 
 use serde::{Deserialize, Serialize};
 
-/// Every number of a published mind that can be chosen. The defaults are those of the published recordings; what cannot be
-/// chosen is a fact of the published code. Ranges are checked where parameters enter a program, by
-/// `phase_minds::MindParameters::validate`.
+/// Every number of a published mind that can be chosen. The defaults are those of the published recordings;
+/// what cannot be chosen is a fact of the published code. Ranges are checked where parameters enter a
+/// program, by `phase_minds::MindParameters::validate`.
 #[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PublishedParameters {
@@ -14,9 +14,9 @@ pub struct PublishedParameters {
     pub lambda: f64,
     /// Simulations a decision; at least 1.
     pub simulations: usize,
-    /// Searches a decision, each from the start and with that many simulations, whose visits are added up; at least 1. The
-    /// original searches once. What one search settles on is to some degree chance, and a likelihood of actions needs to
-    /// know how much.
+    /// Searches a decision, each from the start and with that many simulations, whose visits are added up; at
+    /// least 1. The original searches once. What one search settles on is to some degree chance, and a
+    /// likelihood of actions needs to know how much.
     pub searches: usize,
     /// Steps of a rollout.
     pub rollout_steps: usize,
@@ -26,8 +26,8 @@ pub struct PublishedParameters {
     pub c_base: f64,
     /// Weight of the next step's reward.
     pub discount: f64,
-    /// Whether bodies collide with each other in the search, as they do in the original; if not, they pass through each
-    /// other.
+    /// Whether bodies collide with each other in the search, as they do in the original; if not, they pass
+    /// through each other.
     pub collisions: bool,
 }
 

@@ -19,8 +19,8 @@ pub(crate) struct Perimeter {
 }
 
 impl Perimeter {
-    /// The perimeter of an entity: of an agent the cells of its corners and those between them, of an object those under
-    /// sixteen points of its circle.
+    /// The perimeter of an entity: of an agent the cells of its corners and those between them, of an object
+    /// those under sixteen points of its circle.
     pub(crate) fn of(physics: &PhysicsConfig, entity: Entity, body: &Body) -> Self {
         let mut perimeter = Self::default();
         match Outline::of(physics, entity, body) {
@@ -59,12 +59,14 @@ fn grid_place(point: Vec2) -> (i32, i32) {
 fn line((mut x, mut y): (i32, i32), (to_x, to_y): (i32, i32), mut visit: impl FnMut((i32, i32))) {
     // Bodies may be anywhere, but no line need be longer than a few arenas.
     const LONGEST: i32 = 8 * CELLS_PER_SIDE as i32;
-    let (width, height) = (to_x.saturating_sub(x).saturating_abs(), to_y.saturating_sub(y).saturating_abs());
+    let width = to_x.saturating_sub(x).saturating_abs();
+    let height = to_y.saturating_sub(y).saturating_abs();
     visit((x, y));
     if width > LONGEST || height > LONGEST {
         return visit((to_x, to_y));
     }
-    let (step_x, step_y) = ((to_x - x).signum(), (to_y - y).signum());
+    let step_x = (to_x - x).signum();
+    let step_y = (to_y - y).signum();
     let mut error = width - height;
     while (x, y) != (to_x, to_y) {
         let twice = 2 * error;

@@ -1,4 +1,4 @@
-//! Which bodies of a particle contradict an observation, and where they are put instead.
+//! The bodies of a particle that contradict an observation, and the places that they are put at instead.
 
 use crate::{perimeter::Perimeter, senses::scaled};
 use core::f32::consts::FRAC_PI_4;
@@ -61,8 +61,8 @@ impl Redraw<'_> {
         }
     }
 
-    /// A new pose for a body: consistent and clear of all bodies but those still waiting for theirs; else consistent; else
-    /// the last one tried. `None` without cells to choose from.
+    /// A new pose for a body: consistent and clear of all bodies but those still waiting for theirs; else
+    /// consistent; else the last one tried. `None` without cells to choose from.
     fn place(
         &self,
         particle: &State,
@@ -101,8 +101,8 @@ impl Redraw<'_> {
         cell.centre() + self.flip.map_or(upper_left, |flip| flip.vector(upper_left))
     }
 
-    /// Whether an unseen body may be in a pose: no cell of its outline is in view or out of range, and it keeps clear of all
-    /// that is observed.
+    /// Whether an unseen body may be in a pose: no cell of its outline is in view or out of range, and it
+    /// keeps clear of all that is observed.
     fn consistent(&self, particle: &State, entity: Entity, body: &Body) -> bool {
         if !body.is_finite() {
             return false;

@@ -1,7 +1,7 @@
 //! Distances through rooms and doors as the published planner measures them.
 //!
-//! Every layout but the open one has at most one way between two rooms, because one wall is always full; so there are no
-//! ties between ways, and a reflected layout is treated as its original.
+//! Every layout but the open one has at most one way between two rooms, because one wall is always full; so
+//! there are no ties between ways, and a reflected layout is treated as its original.
 
 use phase_model::{
     Layout, RoomId, Segment, Vec2, arena,
@@ -12,8 +12,8 @@ use phase_navigation::Map;
 /// Distance along each axis of a room's corner point from the arena's centre (u).
 const CORNER: f32 = 8.75;
 
-/// Rooms and the paths between them. Paths cross doors in their middles, and what cannot be reached is as far as
-/// the arena is wide: [`arena::DIAGONAL`].
+/// Rooms and the paths between them. Paths cross doors in their middles, and what cannot be reached is as far
+/// as the arena is wide: [`arena::DIAGONAL`].
 #[derive(Clone, Debug)]
 pub struct Rooms(Map);
 
@@ -36,8 +36,8 @@ impl Rooms {
         self.0.crossing(a, b).map(|crossing| crossing.opening)
     }
 
-    /// The rooms on the way through the fewest of them, the first and the last included; `None` where there is
-    /// no way.
+    /// The rooms on the way through the fewest of them, the first and the last included; `None` where there
+    /// is no way.
     #[must_use]
     pub fn way(&self, from: RoomId, to: RoomId) -> Option<Vec<RoomId>> {
         let crossings = self.0.way(from, to, 0.0)?;
@@ -64,7 +64,8 @@ impl Rooms {
         self.way(from, to).is_none_or(|way| self.doors(&way).any(|door| door.length() < 2.0 * size))
     }
 
-    /// Length of the path between two points (u): straight within a room, otherwise through the doors' points.
+    /// Length of the path between two points (u): straight within a room, otherwise through the doors'
+    /// points.
     #[must_use]
     pub fn distance(&self, from: Vec2, to: Vec2) -> f32 {
         let start = room_of(from);
@@ -82,8 +83,8 @@ impl Rooms {
         sum + here.distance(to)
     }
 
-    /// Distance of a point from a room (u): to its corner point, straight or through the one door between; the arena's
-    /// diagonal where there is none.
+    /// Distance of a point from a room (u): to its corner point, straight or through the one door between;
+    /// the arena's diagonal where there is none.
     #[must_use]
     pub fn room_distance(&self, from: Vec2, room: RoomId) -> f32 {
         let here = room_of(from);

@@ -1,5 +1,5 @@
-//! The low level's model of the world for POMCP: the subgoal's distance as reward, and another agent that coasts in the tree
-//! and does anything in rollouts.
+//! The low level's model of the world for POMCP: the subgoal's distance as reward, and another agent that
+//! coasts in the tree and does anything in rollouts.
 
 use crate::{aim::Aim, rooms::Rooms};
 use phase_forward::Forward;
@@ -7,7 +7,7 @@ use phase_model::{AGENT_COUNT, Action, AgentId, Dynamics, State};
 use phase_pomcp::{GenerativeModel, Transition};
 use rand::{Rng, RngExt};
 
-/// What the search samples.
+/// The model that the search samples from.
 #[derive(Debug)]
 pub(crate) struct SearchModel<'a> {
     pub(crate) agent: AgentId,
@@ -47,8 +47,8 @@ impl GenerativeModel for SearchModel<'_> {
         Transition { observation: (), reward, terminal: false }
     }
 
-    /// In rollouts the other does anything from the same set of actions, and the state that an action is taken in is
-    /// rewarded.
+    /// In rollouts the other does anything from the same set of actions, and the state that an action is
+    /// taken in is rewarded.
     fn rollout_step(&self, state: &mut State, action: usize, random: &mut impl Rng) -> Transition<()> {
         let action = self.actions[action];
         let reward = self.aim.reward(self.rooms, state, action);

@@ -1,4 +1,4 @@
-//! Which of the subgoals that the particles propose is pursued.
+//! The choice among the subgoals that the particles propose.
 
 use crate::{aim::Aim, rooms::Rooms};
 use phase_model::{AgentId, Entity, ObjectId, State, arena};
@@ -38,8 +38,8 @@ pub(crate) fn proposals(
     proposals
 }
 
-/// What is left to do (u): an agent's way to its landmark; an object's way if it is held, else the way to the object.
-/// Nothing for all other subgoals.
+/// Distance (u) left to go: an agent's way to its landmark; an object's way if it is held, else the way to
+/// the object. Nothing for all other subgoals.
 fn cost(rooms: &Rooms, agent: AgentId, aim: Aim, state: &State) -> f32 {
     let at = |entity| state.position(entity);
     match aim {
@@ -58,8 +58,8 @@ fn cost(rooms: &Rooms, agent: AgentId, aim: Aim, state: &State) -> f32 {
     }
 }
 
-/// The subgoal pursued: going to an object or to the other agent if any particle proposes that, else the most valuable.
-/// `None` without proposals.
+/// The subgoal pursued: going to an object or to the other agent if any particle proposes that, else the most
+/// valuable. `None` without proposals.
 pub(crate) fn pursued(proposals: &[Proposal], agent: AgentId) -> Option<&Proposal> {
     let entities =
         [Entity::Object(ObjectId::ZERO), Entity::Object(ObjectId::ONE), Entity::Agent(agent.other())];

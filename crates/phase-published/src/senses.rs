@@ -1,5 +1,5 @@
-//! What an agent of the published simulator observes: a cone of cells with occlusion, touch by scaled outlines, and one link
-//! of what touches what is observed.
+//! The observations of an agent of the published simulator: a cone of cells with occlusion, touch by scaled
+//! outlines, and one link of what touches what is observed.
 
 use crate::perimeter::Perimeter;
 use phase_model::{
@@ -30,15 +30,16 @@ pub fn in_view(physics: &PhysicsConfig, state: &State, agent: AgentId, entity: E
     Perimeter::of(physics, entity, state.body(entity)).cells.iter().any(|&cell| eye.sees_cell(cell))
 }
 
-/// The entities that an agent observes: itself, those in view, those it touches or holds, and what is linked with them
-/// directly: links are followed once, from the other agent first, then from each object.
+/// The entities that an agent observes: itself, those in view, those it touches or holds, and what is linked
+/// with them directly: links are followed once, from the other agent first, then from each object.
 fn observed(
     physics: &PhysicsConfig,
     state: &State,
     agent: AgentId,
     in_view: impl Fn(Entity) -> bool,
 ) -> BodySet {
-    let (own, other_id) = (Entity::Agent(agent), agent.other());
+    let own = Entity::Agent(agent);
+    let other_id = agent.other();
     let other = Entity::Agent(other_id);
     let outline = |entity| Outline::of(physics, entity, state.body(entity));
     let touches =
@@ -120,7 +121,8 @@ impl<'a> Eye<'a> {
     fn sees_cell(&self, cell: Cell) -> bool {
         let point = cell.centre();
         let ray = point - self.apex;
-        let (ahead, across) = (self.axis.dot(ray), self.axis.perp_dot(ray));
+        let ahead = self.axis.dot(ray);
+        let across = self.axis.perp_dot(ray);
         if ahead <= 0.0 || across.abs() >= TAN_HALF_ANGLE * ahead {
             return false;
         }

@@ -17,7 +17,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     for (k, step) in event.steps.iter().enumerate() {
         for agent in [AgentId::ZERO, AgentId::ONE] {
             let place = step.substeps[step.substeps.len() - 1].position(Entity::Agent(agent));
-            let (action, subgoal) = (step.actions[agent].name(), step.thoughts[agent].subgoal);
+            let action = step.actions[agent].name();
+            let subgoal = step.thoughts[agent].subgoal;
             println!(
                 "step {k:2}: agent {agent} at ({:4.1}, {:4.1}) u tries {subgoal}: {action}",
                 place.x, place.y

@@ -15,9 +15,11 @@ pub struct BeliefSnapshot {
     pub particles: Vec<State>,
 }
 
-/// The beliefs of an agent before each step of an event, and one more after the last. They depend only on its
-/// observations and actions and on the event's seed, so this needs no planning. `minds` are the parameters that the event
-/// was simulated with.
+/// The beliefs of an agent before each step of an event, and one more after the last.
+///
+/// They depend on the agent's observations and actions and on the event's seed alone, so that this needs no
+/// planning. `minds` are the parameters that the event was simulated with; with others, the beliefs are those
+/// that such a mind would have had.
 #[must_use]
 pub fn beliefs(event: &Event, agent: AgentId, minds: &MindParameters) -> Vec<BeliefSnapshot> {
     let physics = event.scene.physics();

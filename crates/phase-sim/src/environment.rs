@@ -5,7 +5,32 @@ use phase_forward::{Forward, SolverCache};
 use phase_model::{AGENT_COUNT, Action, AgentId, Entity, PhysicsConfig, State, Vec2, arena::SUBSTEPS};
 use phase_world::World;
 
-/// The environment: the true dynamics, as opposed to the agents' models of it.
+/// The world that an event happens in: the true dynamics, as opposed to the agents' models of it.
+///
+/// It is a state of all bodies with the memory of the engine, such as contact impulses, so that two
+/// environments in the same state need not go on alike.
+///
+/// # Examples
+/// A strong agent that pushes forward moves:
+///
+/// ```
+/// use phase_model::{Action, AgentId, Entity, Scene};
+/// use phase_sim::{Engine, Environment};
+///
+/// let scene = Scene::from_json(
+///     r#"{"layout": {"base": 0}, "objects": [], "event": "independent", "agents": [
+///         {"size_level": 0, "strength_level": 3, "alpha": 0, "start": {"x": 23.5, "y": 8, "angle": 0},
+///          "goal": {"kind": "agent_on_landmark", "agent": 0, "landmark": 1, "sign": 1}},
+///         {"size_level": 0, "strength_level": 2, "alpha": 0, "start": {"x": 8.5, "y": 8, "angle": 0},
+///          "goal": {"kind": "agent_on_landmark", "agent": 1, "landmark": 0, "sign": 1}}]}"#,
+/// )?;
+/// let start = scene.initial_state();
+/// let mut environment = Environment::new(Engine::World, &scene.physics(), &start);
+/// let substeps = environment.step([Action::Up, Action::Stop]);
+/// let me = Entity::Agent(AgentId::ZERO);
+/// assert!(substeps[4].position(me).distance(start.position(me)) > 0.05);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub struct Environment(Inner);
 
 impl core::fmt::Debug for Environment {
@@ -24,7 +49,8 @@ enum Inner {
 }
 
 impl Environment {
-    /// A newly set-up world in the given state, without any memory of earlier steps.
+    /// A newly set-up world in a state, without any memory of earlier steps. `physics` has the walls, and the
+    /// sizes and forces of the bodies.
     #[must_use]
     pub fn new(engine: Engine, physics: &PhysicsConfig, state: &State) -> Self {
         Self(match engine {
@@ -37,7 +63,8 @@ impl Environment {
         })
     }
 
-    /// One step under both agents' actions; the state after each of its substeps.
+    /// Lets both agents carry out their actions, of agent 0 and of agent 1, for one step of 0.25 s; returns
+    /// the states after each of its five substeps.
     pub fn step(&mut self, actions: [Action; AGENT_COUNT]) -> [State; SUBSTEPS] {
         match &mut self.0 {
             Inner::World(world) => world.step(actions),
@@ -45,7 +72,8 @@ impl Environment {
         }
     }
 
-    /// Sets both agents' velocities to zero and returns the state; objects keep theirs.
+    /// Sets both agents' velocities to zero, as the paper's two-player game does after every step, and
+    /// returns the state; objects keep their velocities.
     pub fn stop_agents(&mut self) -> State {
         match &mut self.0 {
             Inner::World(world) => {

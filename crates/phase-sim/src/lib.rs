@@ -27,7 +27,8 @@
 //!          "goal": {"kind": "agent_on_landmark", "agent": 1, "landmark": 0, "sign": 1}}]}"#,
 //! )?;
 //! let minds = MindParameters::default().with_particles(5).with_simulations(50);
-//! let event = simulate(&scene, 1, &SimulationSettings { max_steps: 6, minds, ..SimulationSettings::default() })?;
+//! let settings = SimulationSettings { max_steps: 6, minds, ..SimulationSettings::default() };
+//! let event = simulate(&scene, 1, &settings)?;
 //! assert_eq!(event.steps.len(), 6);
 //! let last = event.steps[5].substeps[4];
 //! for (agent, landmark) in [(AgentId::ZERO, LandmarkId::TOP_RIGHT), (AgentId::ONE, LandmarkId::TOP_LEFT)] {
@@ -40,11 +41,11 @@
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 
-pub mod beliefs;
-pub mod environment;
-pub mod replay;
-pub mod settings;
-pub mod simulation;
+mod beliefs;
+mod environment;
+mod replay;
+mod settings;
+mod simulation;
 
 pub use beliefs::{BeliefSnapshot, beliefs};
 pub use environment::Environment;

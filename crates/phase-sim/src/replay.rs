@@ -5,8 +5,11 @@ use phase_event::Event;
 use phase_minds::carried_out;
 use phase_model::{State, arena::SUBSTEPS};
 
-/// The states that an event's actions lead to from its first state, by step, in the engine and with the rules that `settings` name:
-/// those of the event itself, bit for bit, if it was simulated with them by this version. No mind is asked.
+/// The states that an event's actions lead to from its first state, step by step, without asking any mind.
+///
+/// Engine and rules (`engine`, `one_way_turns`, `stop_between_steps`) are those of `settings`; if the event
+/// was simulated with them by this version, the states are those of the event, bit for bit. `phase verify`
+/// compares them.
 pub fn replay<'a>(
     event: &'a Event,
     settings: &'a SimulationSettings,

@@ -37,8 +37,9 @@ impl Engine {
 
 /// The settings of a simulation: engine, length, bodies and minds. The defaults are the paper's.
 ///
-/// In a file they are one object with a member for every field, of which `idle` and `stop_between_steps` are left out at
-/// their defaults. [`validate`](Self::validate) checks ranges; [`simulate`](crate::simulate) does so itself.
+/// In a file they are one object with a member for every field, of which `idle` and `stop_between_steps` are
+/// left out at their defaults. [`validate`](Self::validate) checks ranges; [`simulate`](crate::simulate) does
+/// so itself.
 #[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
 pub struct SimulationSettings {
     /// The engine that simulates the event.
@@ -56,12 +57,12 @@ pub struct SimulationSettings {
     /// counterfactual without that agent; usually none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub idle: Option<AgentId>,
-    /// Whether both agents' velocities are set to zero after every step, which makes agents easier to control, as in the
-    /// paper's two-player game (appendix, "Experiment 2"); never where minds play alone.
+    /// Whether both agents' velocities are set to zero after every step, which makes agents easier to
+    /// control, as in the paper's two-player game (appendix, "Experiment 2"); never where minds play alone.
     #[serde(default, skip_serializing_if = "core::ops::Not::not")]
     pub stop_between_steps: bool,
-    /// Whether bodies turn one way whichever way their minds choose: to the left, and to the right in a reflected layout. It
-    /// is a defect of the published recorder, of which its minds do not know.
+    /// Whether bodies turn one way whichever way their minds choose: to the left, and to the right in a
+    /// reflected layout. It is a defect of the published recorder, of which its minds do not know.
     pub one_way_turns: bool,
     /// Parameters of both agents' minds.
     pub minds: MindParameters,

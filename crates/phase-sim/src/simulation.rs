@@ -17,7 +17,7 @@ const REST_SPEED: f32 = 0.05;
 /// Displacement or rotation in a step below which a body is not seen to move (u; rad).
 const MOTION_TOLERANCE: f32 = 0.02;
 
-/// Why a scene could not be simulated.
+/// The reason why a scene could not be simulated: the scene or the settings are invalid, or a search failed.
 #[derive(Clone, PartialEq, Debug, Error)]
 pub enum SimulationError {
     /// The scene is invalid.
@@ -31,20 +31,55 @@ pub enum SimulationError {
     Parameters(#[from] RangeError),
 }
 
-/// Simulates a scene from its start to its end.
+/// Simulates a scene from its start to its end (Algorithm 1 of the paper).
+///
+/// In every step of 0.25 s both agents decide in one and the same state, from what they have observed; then
+/// both actions are carried out. The event ends after [`SimulationSettings::max_steps`], or earlier once
+/// nothing has happened for as long as the settings say. Equal scenes, seeds and settings give equal events,
+/// bit for bit, on every machine and with any number of threads.
+///
+/// [`simulate_with`] can end an event early, and [`Simulation`] goes step by step, with actions from outside.
 ///
 /// # Errors
-/// [`SimulationError`] for invalid scenes and settings.
+/// [`SimulationError`], if the scene or a parameter of the minds is invalid.
+///
+/// # Examples
+/// An agent, 5.5 u from its landmark, gets there, and another that wants to stay stays:
+///
+/// ```
+/// use phase_minds::MindParameters;
+/// use phase_model::{Entity, AgentId, LandmarkId, Scene, arena};
+/// use phase_sim::{SimulationSettings, simulate};
+///
+/// let scene = Scene::from_json(
+///     r#"{"layout": {"base": 0}, "objects": [], "event": "independent", "agents": [
+///         {"size_level": 0, "strength_level": 2, "alpha": 0, "start": {"x": 23.5, "y": 14, "angle": 0},
+///          "goal": {"kind": "agent_on_landmark", "agent": 0, "landmark": 1, "sign": 1}},
+///         {"size_level": 0, "strength_level": 2, "alpha": 0, "start": {"x": 8.5, "y": 19.5, "angle": 0},
+///          "goal": {"kind": "agent_on_landmark", "agent": 1, "landmark": 0, "sign": 1}}]}"#,
+/// )?;
+/// let minds = MindParameters::default().with_particles(5).with_simulations(50);
+/// let settings = SimulationSettings { max_steps: 20, minds, ..SimulationSettings::default() };
+/// let event = simulate(&scene, 1, &settings)?;
+/// let last = event.steps[19].substeps[4];
+/// for (agent, landmark) in [(AgentId::ZERO, LandmarkId::TOP_RIGHT), (AgentId::ONE, LandmarkId::TOP_LEFT)] {
+///     assert!(last.position(Entity::Agent(agent)).distance(arena::LANDMARKS[landmark]) < 1.5);
+/// }
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn simulate(scene: &Scene, seed: u64, settings: &SimulationSettings) -> Result<Event, SimulationError> {
     let (event, _) = simulate_with(scene, seed, settings, &mut |_| ControlFlow::Continue(()))?;
     Ok(event)
 }
 
-/// As [`simulate`], calling `on_step` with every step as it is computed. When that breaks, the event ends
-/// early; the returned flag says whether the event was completed.
+/// Simulates a scene as [`simulate`] does, and calls `on_step` with every step as soon as it is computed.
+///
+/// When `on_step` breaks, the event ends early: it has the steps up to that one. The returned flag says
+/// whether the event came to its own end. Progress bars and interruption are built on this; a callback cannot
+/// change what happens.
 ///
 /// # Errors
-/// [`SimulationError`] for invalid scenes and settings.
+/// [`SimulationError`], if the scene or a parameter of the minds is invalid.
 pub fn simulate_with(
     scene: &Scene,
     seed: u64,
@@ -60,10 +95,14 @@ pub fn simulate_with(
     Ok((simulation.into_event(), true))
 }
 
-/// Who decides for each agent: an action that is given, or the agent's mind.
+/// For each agent the action that it is given; `None` if its mind decides.
 pub type Given = [Option<Action>; AGENT_COUNT];
 
 /// A scene that is simulated step by step.
+///
+/// It is for programs in which something else than minds decides, such as a game, an environment for learning
+/// or a page in a browser: [`step`](Self::step) takes an action for either agent, or lets its mind decide.
+/// Without given actions the event is that of [`simulate`], bit for bit.
 #[derive(Debug)]
 pub struct Simulation {
     settings: SimulationSettings,
@@ -82,19 +121,19 @@ pub struct Simulation {
 }
 
 impl Simulation {
-    /// The scene at its start.
+    /// The scene at its start, in which both agents have minds.
     ///
     /// # Errors
-    /// [`SimulationError`] for invalid scenes and settings.
+    /// [`SimulationError`], if the scene or a parameter of the minds is invalid.
     pub fn new(scene: &Scene, seed: u64, settings: &SimulationSettings) -> Result<Self, SimulationError> {
         Self::with_minds(scene, seed, settings, [true; AGENT_COUNT])
     }
 
-    /// The scene at its start, where only some agents have minds. Those without believe nothing, and stop in a step in which no action
-    /// is given to them.
+    /// The scene at its start, in which only some agents have minds. An agent without one believes nothing,
+    /// and stops in a step in which no action is given to it.
     ///
     /// # Errors
-    /// [`SimulationError`] for invalid scenes and settings.
+    /// [`SimulationError`], if the scene or a parameter of the minds is invalid.
     pub fn with_minds(
         scene: &Scene,
         seed: u64,
@@ -119,17 +158,19 @@ impl Simulation {
         })
     }
 
-    /// One step, also of an event that is over. An agent for which an action is given carries that out, and its mind, which
-    /// perceives all the same, does not decide: its thought is [`Thought::IDLE`].
+    /// Simulates one step of 0.25 s, also of an event that is over. An agent to which an action is given
+    /// carries that out; its mind perceives all the same and does not decide, and its thought is
+    /// [`Thought::IDLE`].
     ///
     /// # Errors
-    /// [`SimulationError::Search`].
+    /// [`SimulationError::Search`], if a search fails.
     pub fn step(&mut self, given: Given) -> Result<&Step, SimulationError> {
         self.perceive();
         let (actions, thoughts) = self.minds.decide(given)?;
         let idle = thoughts.iter().all(|thought| thought.subgoal == Subgoal::Stay);
         let before = self.state;
-        let (settings, layout) = (&self.settings, self.event.scene.layout);
+        let settings = &self.settings;
+        let layout = self.event.scene.layout;
         let carried_out = actions.map(|action| carried_out(action, settings.one_way_turns, layout));
         let mut substeps = self.world.step(carried_out);
         if settings.stop_between_steps {
@@ -150,11 +191,12 @@ impl Simulation {
         Ok(&self.event.steps[steps - 1])
     }
 
-    /// Decides for an agent before the step is due, which takes most of the time of a step. The next [`step`](Self::step) in which
-    /// that agent is not given an action carries the decision out; it is the one that the step itself would have made.
+    /// Decides for an agent before the step is due, because a decision takes most of the time of a step. The
+    /// next [`step`](Self::step) in which that agent is not given an action carries the decision out; it is
+    /// the one that the step itself would have made.
     ///
     /// # Errors
-    /// [`SimulationError::Search`].
+    /// [`SimulationError::Search`], if the search fails.
     pub fn decide_ahead(&mut self, agent: AgentId) -> Result<(), SimulationError> {
         self.perceive();
         self.minds.decide_ahead(agent)
@@ -168,7 +210,8 @@ impl Simulation {
         }
     }
 
-    /// Whether the event has come to its end: nothing happens any more, or it has as many steps as the settings allow.
+    /// Whether the event has come to its end: nothing happens any more, or it has as many steps as the
+    /// settings allow.
     #[must_use]
     pub const fn is_over(&self) -> bool {
         self.over
@@ -180,19 +223,20 @@ impl Simulation {
         &self.state
     }
 
-    /// What an agent believes: possible states of the world, all equally likely; none for an agent without a mind.
+    /// The particles of an agent's belief: possible states of the world, all equally likely; none for an
+    /// agent without a mind.
     #[must_use]
     pub fn particles(&self, agent: AgentId) -> &[State] {
         self.minds.agents[agent].as_ref().map_or(&[], |mind| mind.belief().particles())
     }
 
-    /// What has happened.
+    /// The event up to now.
     #[must_use]
     pub const fn event(&self) -> &Event {
         &self.event
     }
 
-    /// What has happened.
+    /// The event up to now; the simulation ends.
     #[must_use]
     pub fn into_event(self) -> Event {
         self.event
@@ -202,7 +246,8 @@ impl Simulation {
 /// Whether a viewer would judge that nothing has moved in a step.
 fn is_unmoved(physics: &PhysicsConfig, before: &State, after: &State) -> bool {
     physics.entities().all(|entity| {
-        let (before, after) = (before.body(entity), after.body(entity));
+        let before = before.body(entity);
+        let after = after.body(entity);
         before.position.distance(after.position) < MOTION_TOLERANCE
             && (before.angle - after.angle).abs() < MOTION_TOLERANCE
     })
@@ -224,7 +269,7 @@ struct Minds {
     agents: [Option<Agent>; AGENT_COUNT],
     beliefs: [Pcg64Mcg; AGENT_COUNT],
     searches: [Pcg64Mcg; AGENT_COUNT],
-    /// What was decided before the step was due.
+    /// Decisions made before the step was due.
     decided: [Option<(Action, Thought)>; AGENT_COUNT],
     /// The idle agent, if any.
     idle: Option<AgentId>,

@@ -1,4 +1,4 @@
-//! What is written can be read: from any valid start, whatever its speeds.
+//! Events can be written and read again, from any valid start, whatever its speeds.
 
 use phase_event::{Event, Recording, from_json, to_json};
 use phase_model::{
@@ -63,12 +63,14 @@ proptest! {
         prop_assert!(scene.validate().is_ok());
         for engine in Engine::ALL {
             let settings = SimulationSettings { engine, ..SimulationSettings::default() };
-            let mut simulation = Simulation::with_minds(&scene, seed, &settings, [false; AGENT_COUNT]).expect("a start");
+            let without = [false; AGENT_COUNT];
+            let mut simulation = Simulation::with_minds(&scene, seed, &settings, without).expect("a start");
             for &[a, b] in &actions {
                 simulation.step([Some(a), Some(b)]).expect("no search");
             }
             let event = simulation.into_event();
-            let recording = Recording::of_event("extreme", event.clone(), "test".into(), serde_json::Value::Null);
+            let copy = event.clone();
+            let recording = Recording::of_event("extreme", copy, "test".into(), serde_json::Value::Null);
             let text = to_json(&[recording]).expect("finite numbers");
             let read = from_json(&text);
             prop_assert!(read.is_ok(), "{}: {}", engine.name(), read.expect_err("refused"));

@@ -65,7 +65,8 @@ fn events_of_the_kernel_are_replays_of_it() {
     let scene = scene(EventKind::Collaborating);
     let event = simulate(&scene, 4, &SimulationSettings { engine: Engine::Forward, ..quick() }).unwrap();
     let forward = Forward::new(&scene.physics());
-    let (mut state, mut cache) = (event.initial, forward.fresh_cache(&event.initial));
+    let mut state = event.initial;
+    let mut cache = forward.fresh_cache(&event.initial);
     for step in &event.steps {
         assert_eq!(forward.step_warm(&mut state, &mut cache, step.actions), step.substeps);
     }
@@ -172,7 +173,8 @@ fn an_idle_agent_stays_and_leaves_the_other_its_own_chance() {
     }
 }
 
-/// Step by step it is the same event, and an agent whose mind's actions are given to it makes no difference to the other's mind.
+/// Step by step it is the same event, and an agent whose mind's actions are given to it makes no difference
+/// to the other's mind.
 #[test]
 fn a_simulation_can_be_stepped_and_taken_over() {
     let scene = scene(EventKind::Helping);
@@ -201,7 +203,8 @@ fn a_simulation_can_be_stepped_and_taken_over() {
     }
 }
 
-/// Deciding before the step is due makes no difference, nor does an agent without a mind whose actions are given.
+/// Deciding before the step is due makes no difference, nor does an agent without a mind whose actions are
+/// given.
 #[test]
 fn decisions_can_be_made_ahead_and_minds_left_out() {
     let scene = scene(EventKind::Hindering);
@@ -227,7 +230,8 @@ fn decisions_can_be_made_ahead_and_minds_left_out() {
     assert_eq!(alone.step([None, None]).unwrap().actions[0], Action::Stop);
 }
 
-/// As in the paper's game: agents are at rest after each step, in both engines, and objects keep their velocities.
+/// The rule of the paper's game: agents are at rest after each step, in both engines, and objects keep their
+/// velocities.
 #[test]
 fn agents_can_be_stopped_between_steps() {
     let scene = scene(EventKind::Collaborating);
@@ -249,7 +253,8 @@ fn agents_can_be_stopped_between_steps() {
             let moved = |agent| it.event().initial.position(agent).distance(it.state().position(agent));
             moved(Entity::Agent(AgentId::ZERO)) + moved(Entity::Agent(AgentId::ONE))
         };
-        let (slow, fast) = (path(&game), path(&free));
+        let slow = path(&game);
+        let fast = path(&free);
         assert!(0.2 < slow && slow < fast, "{engine:?}: {slow}, {fast}");
         // Each step begins at rest, so the first is like one in a simulation without it.
         let first = |it: &Simulation| it.event().steps[0].substeps[4].bodies.map(|body| body.position);

@@ -56,7 +56,9 @@ impl<'a> Drawing<'a> {
     }
 
     pub(crate) fn walls(&mut self) {
-        let (x, y, side) = (self.left, TOP, arena::SIDE * SCALE);
+        let x = self.left;
+        let y = TOP;
+        let side = arena::SIDE * SCALE;
         self.add(&format!(
             "<rect x=\"{x}\" y=\"{y}\" width=\"{side}\" height=\"{side}\" fill=\"none\" stroke=\"#000\"/>"
         ));
@@ -105,7 +107,8 @@ impl<'a> Drawing<'a> {
                 continue;
             }
             let crossing = |edge: usize| {
-                let (a, b) = (value[edge], value[(edge + 1) % 4]);
+                let a = value[edge];
+                let b = value[(edge + 1) % 4];
                 let [from, to] =
                     [edge, (edge + 1) % 4].map(|corner| point(corners[corner].0, corners[corner].1));
                 ((a < level) != (b < level)).then(|| from + (to - from) * ((level - a) / (b - a)))
@@ -121,10 +124,12 @@ impl<'a> Drawing<'a> {
 
     /// The prior and the share of visits of an action.
     pub(crate) fn bars(&mut self, row: usize, name: &str, prior: f64, visits: f64) {
-        let (x, y) = (self.left + 75.0, TOP + 6.0 + ROW * row as f32);
+        let x = self.left + 75.0;
+        let y = TOP + 6.0 + ROW * row as f32;
         self.text(self.left, y + 12.0, "#000", name);
         for (offset, share, colour) in [(0.0, prior, "#b0b0b0"), (BAR, visits, "#0072b2")] {
-            let (top, length) = (y + offset, share * FULL);
+            let top = y + offset;
+            let length = share * FULL;
             self.add(&format!(
                 "<rect x=\"{x}\" y=\"{top}\" width=\"{length:.1}\" height=\"{BAR}\" fill=\"{colour}\"/>"
             ));

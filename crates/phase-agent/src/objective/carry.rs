@@ -65,7 +65,7 @@ impl Objective<'_> {
         (nearest - reach).max(0.0) + detour.max(0.0) + 2.0 * self.parameters.grasp
     }
 
-    /// How far an object would slide if it were released now (u): it should stay where it is put.
+    /// Distance (u) that an object would slide if it were released now: it should stay where it is put.
     pub(crate) fn sliding_distance(&self, state: &State, object: ObjectId) -> f32 {
         let mass = physics::object_mass(self.physics.object_radii[object]);
         let speed = state.body(Entity::Object(object)).velocity.length();

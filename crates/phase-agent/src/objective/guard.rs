@@ -14,7 +14,7 @@ pub(crate) struct Guard {
     field: Arc<Field>,
     /// Whether the entity is to come to the target.
     drives: bool,
-    /// Where the agent wants to stand, relative to the entity if it stands next to it (u).
+    /// The place at which the agent wants to stand, relative to the entity if it stands next to it (u).
     post: Vec2,
     /// Whether the post moves with the entity.
     is_next_to: bool,
@@ -32,7 +32,8 @@ impl Guard {
         if self.is_next_to { self.post + subject - self.start } else { self.post }
     }
 
-    /// Distance to the post, and what the entity is short of, for these places of the agent and the entity (u).
+    /// Distance to the post, and what the entity is short of, for these places of the agent and the entity
+    /// (u).
     pub(crate) fn distance(&self, here: Vec2, subject: Vec2) -> f32 {
         let to_target = self.field.distance(subject).min(arena::DIAGONAL);
         let missing = if self.drives { to_target } else { arena::DIAGONAL - to_target };
@@ -58,7 +59,7 @@ pub(crate) struct ClearPath {
 }
 
 impl ClearPath {
-    /// What the clearance from the path is short of (u).
+    /// Distance (u) that the clearance from the path is short of.
     pub(crate) fn distance(&self, here: Vec2) -> f32 {
         (self.room - self.nearest(here).distance(here)).max(0.0)
     }
@@ -83,7 +84,7 @@ impl ClearPath {
     }
 }
 
-/// Where a path from a point enters a room (u); `None` if it starts there.
+/// The point (u) at which a path from a point enters a room; `None` if it starts there.
 fn entrance(field: &Field, start: Vec2, room: RoomId) -> Option<Vec2> {
     let mut last = start;
     for end in field.path(start) {
@@ -95,7 +96,8 @@ fn entrance(field: &Field, start: Vec2, room: RoomId) -> Option<Vec2> {
     None
 }
 
-/// Distance (u) past a door at which a point lies inside the room. It allows for rounding and shapes no behaviour.
+/// Distance (u) past a door at which a point lies inside the room. It allows for rounding and shapes no
+/// behaviour.
 const PAST_DOOR: f32 = 0.1;
 
 impl Compiler<'_, '_> {
@@ -105,7 +107,8 @@ impl Compiler<'_, '_> {
         let mover = self.mover(subject);
         let field = self.navigator.field(target, mover, &[]);
         let me = Entity::Agent(self.agent);
-        let (here, start) = (self.place(me), self.place(subject));
+        let here = self.place(me);
+        let start = self.place(subject);
         let own = self.mover(me);
         let obstacles = self.obstacles(Some(subject));
         let to_me = self.navigator.field(Target::Point(here), own, &obstacles);
@@ -132,11 +135,12 @@ impl Compiler<'_, '_> {
         Guard { subject, field, drives: false, post, is_next_to, start, way }
     }
 
-    /// Pushing an entity off a target at which it is, where nobody gets in between any more: the post is on the
-    /// side from which it can be pushed far at a short way there.
+    /// Pushing an entity off a target at which it is, where nobody gets in between any more: the post is on
+    /// the side from which it can be pushed far at a short way there.
     fn push_away(&mut self, subject: Entity, field: Arc<Field>) -> Guard {
         let me = Entity::Agent(self.agent);
-        let (here, start) = (self.place(me), self.place(subject));
+        let here = self.place(me);
+        let start = self.place(subject);
         let touching = self.physics.radius(me) + self.physics.radius(subject);
         let obstacles = self.obstacles(None);
         let own = self.mover(me);
@@ -157,7 +161,8 @@ impl Compiler<'_, '_> {
         Guard { subject, field, drives: false, post: best.1, is_next_to: true, start, way }
     }
 
-    /// Where an entity comes to a stop that is pushed straight on for at most the length of a push.
+    /// The place at which an entity comes to a stop that is pushed straight on for at most the length of a
+    /// push.
     fn pushed(&self, entity: Entity, start: Vec2, direction: Vec2) -> Vec2 {
         let mut end = start;
         while end.distance(start) < self.parameters.push_length {
@@ -192,7 +197,8 @@ impl Compiler<'_, '_> {
         let mover = self.mover(subject);
         let field = self.navigator.field(target, mover, &[]);
         let me = Entity::Agent(self.agent);
-        let (here, start) = (self.place(me), self.place(subject));
+        let here = self.place(me);
+        let start = self.place(subject);
         let own = self.mover(me);
         let forward = (field.waypoint(start, self.parameters.look_ahead) - start).normalize_or(Vec2::Y);
         let post = start - forward * (self.physics.radius(me) + self.physics.radius(subject));

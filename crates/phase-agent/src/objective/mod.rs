@@ -18,7 +18,7 @@ use phase_model::{
 use phase_navigation::{Disc, Mover, Navigator};
 use pursuit::Pursuit;
 
-/// How a body should move next.
+/// The next motion of a body.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Motion {
     /// The agent, or the object that it carries.
@@ -126,7 +126,7 @@ impl<'a> Objective<'a> {
         }
     }
 
-    /// How to move next.
+    /// The next motion towards the subgoal.
     #[must_use]
     pub fn motion(&self, state: &State) -> Motion {
         let me = Entity::Agent(self.agent);
@@ -271,7 +271,8 @@ impl Compiler<'_, '_> {
     fn way_to(&mut self, entity: Entity) -> way::Way {
         let me = Entity::Agent(self.agent);
         let obstacles = self.obstacles(Some(entity));
-        let (from, to) = (self.place(me), self.place(entity));
+        let from = self.place(me);
+        let to = self.place(entity);
         let mover = self.mover(me);
         way::Way::new(self.navigator, mover, from, to, &obstacles)
     }
@@ -303,8 +304,10 @@ impl Compiler<'_, '_> {
     }
 
     fn escape(&mut self) -> Pursuit {
-        let (me, other) = (Entity::Agent(self.agent), Entity::Agent(self.agent.other()));
-        let (from, to) = (self.place(other), self.place(me));
+        let me = Entity::Agent(self.agent);
+        let other = Entity::Agent(self.agent.other());
+        let from = self.place(other);
+        let to = self.place(me);
         let mover = self.mover(other);
         Pursuit::Escape(way::Way::new(self.navigator, mover, from, to, &[]))
     }

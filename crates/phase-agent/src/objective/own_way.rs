@@ -4,14 +4,15 @@ use phase_model::{SlotId, Vec2, arena, layout::SLOT_DIRECTIONS};
 use phase_navigation::{Field, Map, Mover};
 use std::sync::Arc;
 
-/// Distance (u) of a point from a line up to which it lies on it. It allows for rounding and shapes no behaviour.
+/// Distance (u) of a point from a line up to which it lies on it. It allows for rounding and shapes no
+/// behaviour.
 const ROUNDING: f32 = 1e-3;
 
 /// The way of an agent to a target.
 #[derive(Clone, Debug)]
 pub(crate) struct OwnWay {
     field: Arc<Field>,
-    /// Where the way first crosses a door that the agent does not fit through (u).
+    /// The point at which the way first crosses a door that the agent does not fit through (u).
     closed_door: Option<Vec2>,
     /// Distance from such a door at which the agent waits (u): it leaves room for others to come through.
     waiting: f32,

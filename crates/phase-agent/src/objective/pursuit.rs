@@ -1,4 +1,4 @@
-//! What a subgoal asks for.
+//! The kinds of pursuit that a subgoal asks for.
 
 use super::{
     carry::Carry,
@@ -58,7 +58,8 @@ pub(crate) fn separation(way: &Way, pursuer: Vec2, place: Vec2, impassable: f32)
     if cost >= impassable { cost - impassable } else { cost }
 }
 
-/// Of several points around a body of some radius, within the arena, the one farthest from a pursuer by its way.
+/// Of several points around a body of some radius, within the arena, the one farthest from a pursuer by its
+/// way.
 pub(crate) fn away(way: &Way, pursuer: Vec2, here: Vec2, radius: f32, parameters: &PhaseParameters) -> Vec2 {
     let inset = Vec2::splat(radius);
     let mut best = (f32::NEG_INFINITY, here);

@@ -71,7 +71,7 @@ pub(crate) fn clear_of_walls(physics: &PhysicsConfig, outline: &Outline) -> bool
     outline.inside_arena() && !physics.walls.iter().any(|&wall| outline.overlaps_wall(wall))
 }
 
-/// The same scene with all bodies slightly smaller.
+/// A copy of the scene with all bodies slightly smaller.
 pub(crate) fn shrunk_outline(physics: &PhysicsConfig, by: f32) -> PhysicsConfig {
     let mut physics = physics.clone();
     physics.agents.iter_mut().for_each(|agent| agent.radius -= by);

@@ -128,7 +128,8 @@ proptest! {
         let truth = legal_state(&physics, &mut chance);
         let observation = observe(&physics, &truth, AgentId::ALL[agent]);
         let belief = Belief::new(&physics, &observation, 12, &mut chance);
-        prop_assert_eq!(belief.resampled(), 12 * (physics.entity_count() - observation.observed.iter().count()));
+        let unseen = physics.entity_count() - observation.observed.iter().count();
+        prop_assert_eq!(belief.resampled(), 12 * unseen);
         for particle in belief.particles() {
             let outlines: Vec<_> = physics
                 .entities()
@@ -147,7 +148,7 @@ proptest! {
         }
     }
 
-    /// The same generator gives the same particles, another generator different ones.
+    /// Equal generators give equal particles, another generator different ones.
     #[test]
     fn beliefs_are_a_function_of_the_generator(physics in any_physique(), seed in any::<u64>()) {
         let truth = legal_state(&physics, &mut random(seed));

@@ -42,7 +42,8 @@ fn cells_age_from_when_they_were_last_seen() {
         memory.record_seen(&set(seen));
         assert_eq!([0, 1, 399].map(|index| memory.age(cell(index))), expected);
     }
-    let (agent, object) = (Entity::Agent(AgentId::ONE), Entity::Object(ObjectId::ZERO));
+    let agent = Entity::Agent(AgentId::ONE);
+    let object = Entity::Object(ObjectId::ZERO);
     assert_eq!(memory.weight(agent, cell(0)), 0.0);
     assert!(memory.weight(agent, cell(1)) > memory.weight(object, cell(1)));
     assert_eq!(memory.weight(object, Cell::at(Vec2::new(16.0, 12.0)).unwrap()), 1.0);

@@ -11,7 +11,7 @@ fn truth() -> State {
     state([(7.5, 3.5, PI), (20.0, 8.0, 0.0), (20.0, 15.0, 0.0), (0.0, 0.0, 0.0)])
 }
 
-/// What agent 0 would observe if it saw all cells but those in a square with this lower left corner.
+/// The observation of agent 0 if it saw all cells but those in a square with this lower left corner.
 fn all_but(physics: &PhysicsConfig, corner: (f32, f32), side: usize) -> Observation {
     let mut observation = observe(physics, &truth(), AgentId::ZERO);
     let hidden = |cell: Cell| {
@@ -51,7 +51,8 @@ fn a_tight_hiding_place_is_found_among_many_that_are_too_tight() {
     let mut observation = observe(&physics, &truth, AgentId::ZERO);
     let square = |x: usize, y: usize| (10..12).contains(&x) && (14..16).contains(&y);
     let hidden = |cell: Cell| {
-        let (x, y) = (cell.index() % 20, cell.index() / 20);
+        let x = cell.index() % 20;
+        let y = cell.index() / 20;
         (x % 2 == 1 && y % 2 == 1) || square(x, y)
     };
     observation.visible = Cell::all().filter(|&cell| !hidden(cell)).collect();

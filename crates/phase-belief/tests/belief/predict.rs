@@ -86,7 +86,8 @@ fn what_it_holds_goes_along() {
 #[test]
 fn what_is_in_the_way_stops_it() {
     let walls = || vec![wall((6.0, 17.0), (26.0, 17.0))];
-    let (up, right) = (Vec2::new(0.0, 9.0), Vec2::new(9.0, 0.0));
+    let up = Vec2::new(0.0, 9.0);
+    let right = Vec2::new(9.0, 0.0);
     let last = step_approximate(&small(walls()), scene(up, (20.0, 8.0)), 8);
     let top = last.position(OTHER).y + 0.8;
     assert!((16.0..17.05).contains(&top) && last.body(OTHER).velocity.y < 1.0, "a wall: {top}");
@@ -158,7 +159,8 @@ fn the_agents_own_action_is_known_and_the_other_does_nothing() {
         let mut chance = random(2);
         let mut belief = Belief::new(&physics, &observation, 30, &mut chance);
         belief.update(&Tell, &physics, Action::Left, &observation, &mut chance);
-        let (own, none) = (Action::Left.index() as f32, Action::NoForce.index() as f32);
+        let own = Action::Left.index() as f32;
+        let none = Action::NoForce.index() as f32;
         let told = if agent == 0 { (own, none) } else { (none, own) };
         let expected = Vec2::new(8.0 + told.0, 10.0 + told.1 / 2.0);
         let as_told = belief.particles().iter().filter(|particle| particle.position(BOX) == expected).count();

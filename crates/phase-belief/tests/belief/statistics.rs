@@ -143,7 +143,8 @@ fn after_a_look_at_half_the_arena_all_is_in_the_other_half() {
         assert!((before - 0.47).abs() < 0.06, "{entity:?}: {before}");
     }
     // Six steps of decay leave a small probability that a body moved back unseen, larger for an agent.
-    let (agent, object) = (share_on_the_left(&last, OTHER), share_on_the_left(&last, BALL));
+    let agent = share_on_the_left(&last, OTHER);
+    let object = share_on_the_left(&last, BALL);
     assert!(agent < 0.05 && object < 0.005, "{agent} {object}");
 }
 

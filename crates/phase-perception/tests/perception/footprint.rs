@@ -50,7 +50,8 @@ fn bodies_that_are_nowhere_lie_on_nothing() {
 
 /// A cell as a polygon, slightly smaller or larger than it is.
 fn square(cell: Cell, grown: f32) -> [Vec2; 4] {
-    let (min, max) = (cell.min() - grown, cell.min() + 1.0 + grown);
+    let min = cell.min() - grown;
+    let max = cell.min() + 1.0 + grown;
     [min, Vec2::new(max.x, min.y), max, Vec2::new(min.x, max.y)]
 }
 
@@ -64,7 +65,8 @@ proptest! {
     fn a_footprint_is_where_squares_overlap(physics in any_physique(), body in any_body()) {
         for entity in physics.entities() {
             let outline = Outline::of(&physics, entity, &body);
-            let (cells, wholly) = (footprint(&physics, entity, &body), covered(&outline));
+            let cells = footprint(&physics, entity, &body);
+            let wholly = covered(&outline);
             for cell in Cell::all() {
                 let surely = outline.overlaps(&Outline::Trapezoid(square(cell, -1e-3)));
                 let perhaps = outline.overlaps(&Outline::Trapezoid(square(cell, 1e-3)));

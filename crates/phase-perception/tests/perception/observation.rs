@@ -1,4 +1,4 @@
-//! Which entities are observed: sight, touch and their consequences.
+//! The entities that are observed: by sight, touch and their consequences.
 
 use crate::common::{BALL, BOX, ME, OTHER, any_physique, any_state, grip, looking, physics, with};
 use phase_model::{AgentId, BodySet, Entity, Size, State};
@@ -99,7 +99,7 @@ proptest! {
         }
         let own = Entity::Agent(AgentId::ALL[agent]);
         let sources: Vec<_> =
-            entities().filter(|&entity| entity == own || sees(&physics, &state, AgentId::ALL[agent], entity)).collect();
+            entities().filter(|&it| it == own || sees(&physics, &state, AgentId::ALL[agent], it)).collect();
         let expected: BodySet = entities()
             .filter(|entity| sources.iter().any(|source| linked[source.index()][entity.index()]))
             .collect();

@@ -44,7 +44,8 @@ pub(crate) fn look(physics: &PhysicsConfig, state: &State, agent: usize, cell: C
 /// and then finer ones around the best.
 fn walk(ray: (f64, f64), point: (f64, f64)) -> f64 {
     let distance = |t: f64| (ray.0 * t - point.0).hypot(ray.1 * t - point.1);
-    let (mut best, mut step) = (0.0, 0.1);
+    let mut best = 0.0;
+    let mut step = 0.1;
     for _ in 0..6 {
         let candidates = (-10..=10).map(|k| (best + f64::from(k) * step).clamp(0.0, 1.0));
         best = candidates.min_by(|&a, &b| distance(a).total_cmp(&distance(b))).expect("there are candidates");
@@ -60,8 +61,11 @@ fn meets(wall: &Segment, viewpoint: (f64, f64), ray: (f64, f64)) -> (bool, f64) 
     let turned = |(x, y): (f64, f64)| if upright { (x, y) } else { (y, x) };
     let ends = [wall.a, wall.b].map(|end| turned((f64::from(end.x), f64::from(end.y))));
     let ((across, along), (ray_across, ray_along)) = (turned(viewpoint), turned(ray));
-    let (line, low, high) = (ends[0].0, ends[0].1.min(ends[1].1), ends[0].1.max(ends[1].1));
-    let (before, after) = (across - line, across + ray_across - line);
+    let line = ends[0].0;
+    let low = ends[0].1.min(ends[1].1);
+    let high = ends[0].1.max(ends[1].1);
+    let before = across - line;
+    let after = across + ray_across - line;
     if (before > 0.0) == (after > 0.0) {
         return (false, before.abs().min(after.abs()));
     }
@@ -77,7 +81,8 @@ fn centre_of_mass(physics: &PhysicsConfig, state: &State, entity: Entity) -> ((f
         Entity::Agent(_) => f64::from(physics.radius(entity)) / 6.0,
         Entity::Object(_) => 0.0,
     };
-    let (x, y) = (f64::from(body.position.x), f64::from(body.position.y));
+    let x = f64::from(body.position.x);
+    let y = f64::from(body.position.y);
     ((x + heading.sin() * behind, y - heading.cos() * behind), heading)
 }
 

@@ -49,7 +49,8 @@ proptest! {
         let observed = observed_set(&physics, &state, AgentId::ALL[agent]);
         for flip in Flip::ALL {
             let (physics, state) = mirrored(flip, &physics, &state);
-            prop_assert_eq!(field_of_view(&physics, &state, AgentId::ALL[agent]), image(flip, &visible), "{:?}", flip);
+            let seen = field_of_view(&physics, &state, AgentId::ALL[agent]);
+            prop_assert_eq!(seen, image(flip, &visible), "{:?}", flip);
             prop_assert_eq!(observed_set(&physics, &state, AgentId::ALL[agent]), observed, "{:?}", flip);
         }
     }

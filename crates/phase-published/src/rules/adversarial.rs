@@ -18,7 +18,8 @@ impl View<'_> {
 
     /// Keeps the other off a landmark.
     fn hinder_going(&self, landmark: LandmarkId) -> Aim {
-        let (goal, there) = (landmark.room(), self.other_room());
+        let goal = landmark.room();
+        let there = self.other_room();
         let negated = Aim::AgentToLandmark(self.other, landmark, Sign::Negative);
         if self.rooms().is_open() {
             return negated;
@@ -43,8 +44,9 @@ impl View<'_> {
         self.stand_on(&way).unwrap_or(negated)
     }
 
-    /// The room beside a door on the other's way that is too narrow for the first object, the nearer of the two: the
-    /// object there closes the door. `None` if there is no such door, or that way is not shorter than the other's.
+    /// The room beside a door on the other's way that is too narrow for the first object, the nearer of the
+    /// two: the object there closes the door. `None` if there is no such door, or that way is not shorter
+    /// than the other's.
     fn room_to_plug(&self, way: &[RoomId]) -> Option<RoomId> {
         if self.rules.physics.object_count == 0 {
             return None;
@@ -62,8 +64,8 @@ impl View<'_> {
             .map(|(_, room)| room)
     }
 
-    /// Goes to the nearest room on the other's way with a wall beside its door. The room that it is in is not among them, so
-    /// that it goes to and fro where there is no other.
+    /// Goes to the nearest room on the other's way with a wall beside its door. The room that it is in is not
+    /// among them, so that it goes to and fro where there is no other.
     fn stand_on(&self, way: &[RoomId]) -> Option<Aim> {
         let here = self.my_room();
         let walled = way.windows(2).filter(|pair| self.rooms().walled(pair[0], pair[1]));
@@ -81,7 +83,8 @@ impl View<'_> {
         if self.rooms().is_open() {
             return negated;
         }
-        let (entity, goal) = (Entity::Object(object), landmark.room());
+        let entity = Entity::Object(object);
+        let goal = landmark.room();
         let there = self.room(entity);
         let reaches = |agent: AgentId, to| !self.blocked(agent, self.room(Entity::Agent(agent)), to);
         if !reaches(self.me, there) {
@@ -112,8 +115,8 @@ impl View<'_> {
         self.drag_away(object).unwrap_or(Aim::AgentToLandmark(self.other, landmark, Sign::Negative))
     }
 
-    /// Drags an object to the room where it is farthest from the other and still nearer to the agent: a room that the other
-    /// cannot enter with it, if there is one. `None` if there is no such room.
+    /// Drags an object to the room where it is farthest from the other and still nearer to the agent: a room
+    /// that the other cannot enter with it, if there is one. `None` if there is no such room.
     fn drag_away(&self, object: ObjectId) -> Option<Aim> {
         let there = self.room(Entity::Object(object));
         let length = |from, to| self.rooms().way(from, to).map_or(usize::MAX, |way| way.len());

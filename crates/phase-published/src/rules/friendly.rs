@@ -36,9 +36,11 @@ impl View<'_> {
         if self.landmark_distance(entity, landmark) < OBJECT_REACHED {
             return self.release_or_stop();
         }
-        let (there, goal) = (self.room(entity), landmark.room());
+        let there = self.room(entity);
+        let goal = landmark.room();
         let reaches = |agent: AgentId, to| !self.blocked(agent, self.room(Entity::Agent(agent)), to);
-        let (i_reach_it, i_reach_goal) = (reaches(self.me, there), reaches(self.me, goal));
+        let i_reach_it = reaches(self.me, there);
+        let i_reach_goal = reaches(self.me, goal);
         if i_reach_it && i_reach_goal {
             return self.put(object, landmark);
         }
@@ -49,7 +51,8 @@ impl View<'_> {
         if self.state.grips[self.other].is_some() {
             return Aim::Stop;
         }
-        let (other_reaches_it, other_reaches_goal) = (reaches(self.other, there), reaches(self.other, goal));
+        let other_reaches_it = reaches(self.other, there);
+        let other_reaches_goal = reaches(self.other, goal);
         if other_reaches_goal && !other_reaches_it && i_reach_it {
             return self.bring(object);
         }
@@ -62,7 +65,8 @@ impl View<'_> {
     /// Brings an object to the other, which wants it.
     fn bring(&self, object: ObjectId) -> Aim {
         let entity = Entity::Object(object);
-        let (there, wanted) = (self.room(entity), self.other_room());
+        let there = self.room(entity);
+        let wanted = self.other_room();
         if there == wanted && self.between(Entity::Agent(self.other), entity) < CLOSE {
             return self.release_or_stop();
         }

@@ -14,10 +14,10 @@ use phase_model::{
 pub(crate) const AGENT_REACHED: f32 = 0.02 * arena::DIAGONAL;
 /// An object is on a landmark within this distance (u): a reward above −0.05.
 pub(crate) const OBJECT_REACHED: f32 = 0.05 * arena::DIAGONAL;
-/// What fits through a door for one who carries: one and a half times its size on each side.
+/// Width of an agent that carries, for doors: one and a half times its size on each side.
 const CARRYING_WIDTH: f32 = 1.5;
 
-/// What the rules look at: the map, the bodies, who wants what.
+/// The facts that the rules look at: the map, the bodies, goals and attitudes.
 #[derive(Clone, Debug)]
 pub(crate) struct Rules {
     pub(crate) rooms: Rooms,
@@ -30,8 +30,8 @@ pub(crate) struct Rules {
 }
 
 impl Rules {
-    /// The actions to choose from for a subgoal. One who is hindered on the way to a landmark, with the other in the same room
-    /// of it, may push in all directions, as the other may who wants it elsewhere.
+    /// The actions to choose from for a subgoal. One who is hindered on the way to a landmark, with the other
+    /// in the same room of it, may push in all directions, as the other may who wants it elsewhere.
     pub(crate) fn actions(&self, aim: Aim, state: &State) -> &'static [Action] {
         let room = |agent| room_of(state.position(Entity::Agent(agent)));
         let wrestles = match aim {

@@ -55,7 +55,8 @@ fn what_is_contradicted_goes_to_a_corner_of_an_unseen_cell() {
     belief.update(Action::TurnLeft, &observation, &mut random(3));
     let mut redrawn = 0;
     for (old, new) in before.iter().zip(belief.particles()) {
-        let (old, new) = (old.position(Entity::Object(BALL)), new.position(Entity::Object(BALL)));
+        let old = old.position(Entity::Object(BALL));
+        let new = new.position(Entity::Object(BALL));
         if old.distance(new) > 1.0 {
             redrawn += 1;
             assert_eq!(new, new.round(), "not a corner");

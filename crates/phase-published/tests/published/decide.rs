@@ -42,8 +42,8 @@ fn one_seed_makes_one_decision() {
 
 #[test]
 fn minds_that_share_searches_decide_as_they_would_alone() {
-    // With either landmark as the goal, the ball that is not seen is looked for first, from the same random numbers; from
-    // another place the same subgoal is another search.
+    // With either landmark as the goal, the ball that is not seen is looked for first, from the same random
+    // numbers; from another place the same subgoal is another search.
     let memo = SearchMemo::default();
     let mut subgoals = Vec::new();
     for landmark in [LandmarkId::TOP_RIGHT, LandmarkId::BOTTOM_RIGHT] {
@@ -76,12 +76,14 @@ fn without_particles_or_aim_the_agent_stops() {
 #[test]
 fn action_sets_follow_the_subgoal() {
     let scene = walking();
-    let (rooms, physics) = (Rooms::new(scene.layout), scene.physics());
+    let rooms = Rooms::new(scene.layout);
+    let physics = scene.physics();
     let free = scene.initial_state();
     let mut holding = free;
     hold(&mut holding, ME);
     let count = |aim: Aim, state| aim.actions(ME, false, &rooms, &physics, state).len();
-    let (positive, landmark) = (Sign::Positive, LandmarkId::TOP_LEFT);
+    let positive = Sign::Positive;
+    let landmark = LandmarkId::TOP_LEFT;
     assert_eq!(count(Aim::AgentToLandmark(ME, landmark, positive), &free), 5);
     assert_eq!(count(Aim::AgentToLandmark(OTHER, landmark, Sign::Negative), &free), 12);
     assert_eq!(count(Aim::AgentToRoom(ME, RoomId::TOP_LEFT), &free), 5);
@@ -110,7 +112,8 @@ fn rewards_are_distances() {
     assert!((there - (282.8 - 1.060_66) / 28.284).abs() < 1e-4, "{there}");
 }
 
-/// One who is hindered may push in all directions while the hinderer is in the room of its landmark, and not before.
+/// One who is hindered may push in all directions while the hinderer is in the room of its landmark, and not
+/// before.
 #[test]
 fn the_hindered_wrestle() {
     let goal = on_landmark(OTHER, LandmarkId::BOTTOM_LEFT);

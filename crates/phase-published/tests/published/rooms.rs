@@ -36,7 +36,8 @@ fn rooms_form_a_chain() {
 
 #[test]
 fn distances_go_through_doors() {
-    let (a, b) = (Vec2::new(8.0, 20.0), Vec2::new(24.0, 20.0));
+    let a = Vec2::new(8.0, 20.0);
+    let b = Vec2::new(24.0, 20.0);
     assert_eq!(rooms(0).distance(a, b), 16.0);
     let legs = [a, Vec2::new(7.25, 12.0), Vec2::new(16.0, 7.0), Vec2::new(21.0, 12.0), b];
     let through: f32 = legs.windows(2).map(|leg| leg[0].distance(leg[1])).sum();
@@ -48,7 +49,8 @@ fn a_room_is_as_far_as_its_corner_if_it_is_next() {
     let four = rooms(4);
     let here = Vec2::new(10.0, 10.0);
     assert!((four.room_distance(here, BL) - here.distance(Vec2::new(7.25, 3.25))).abs() < 1e-5);
-    let (door, corner) = (Vec2::new(7.25, 12.0), Vec2::new(7.25, 20.75));
+    let door = Vec2::new(7.25, 12.0);
+    let corner = Vec2::new(7.25, 20.75);
     assert!((four.room_distance(here, TL) - here.distance(door) - door.distance(corner)).abs() < 1e-5);
     assert_eq!(four.room_distance(here, TR), arena::DIAGONAL);
 }

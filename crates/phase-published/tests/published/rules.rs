@@ -39,7 +39,8 @@ fn an_agent_goes_room_by_room_and_stops_within_the_threshold() {
 #[test]
 fn an_object_is_approached_grabbed_dragged_and_released() {
     let (scene, mut state) = walled(ball_on(LandmarkId::BOTTOM_LEFT), BODIES);
-    let (me, ball) = (Entity::Agent(ME), Entity::Object(BALL));
+    let me = Entity::Agent(ME);
+    let ball = Entity::Object(BALL);
     assert_eq!(aim(&scene, ME, &state), Aim::AgentToRoom(ME, RoomId::BOTTOM_LEFT));
     put(&mut state, me, Vec2::new(20.0, 10.0));
     assert_eq!(aim(&scene, ME, &state), Aim::Touch(ME, ball, Sign::Positive));

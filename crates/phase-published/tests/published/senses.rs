@@ -1,4 +1,4 @@
-//! What is seen, felt and inferred from touch.
+//! Sight, touch, and what is inferred from touch.
 
 use crate::common::{BALL, ME, OTHER, hold, on_landmark, random, scene};
 use phase_model::{Attitude, Entity, LandmarkId, Layout, ObjectId, State, Vec2};
@@ -23,18 +23,21 @@ fn the_cone_is_seen_and_the_back_is_not() {
     assert!(in_view(&physics, &state, ME, Entity::Agent(OTHER)));
 }
 
-/// Bodies hide cells behind them, for both descriptions of the same view; only cells in or right behind a disc differ.
+/// Bodies hide cells behind them, for both descriptions of the same view; only cells in or right behind a
+/// disc differ.
 #[test]
 fn the_view_agrees_with_the_papers() {
     let mut random = random(3);
-    let (mut same, mut all) = (0, 0);
+    let mut same = 0;
+    let mut all = 0;
     for _ in 0..100 {
         let mut place = || {
             (random.random_range(8.0..24.0), random.random_range(4.0..20.0), random.random_range(0.0..6.0))
         };
         let (mut physics, state) = state([place(), place(), place(), place()]);
         physics.walls = Layout::new(18, None).unwrap().walls();
-        let (ours, published) = (field_of_view(&physics, &state, ME), observe(&physics, &state, ME).visible);
+        let ours = field_of_view(&physics, &state, ME);
+        let published = observe(&physics, &state, ME).visible;
         all += 400;
         same += Cell::all().filter(|&cell| ours.contains(cell) == published.contains(cell)).count();
     }
