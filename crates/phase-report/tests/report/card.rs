@@ -49,7 +49,7 @@ fn the_front_matter_survives_any_name() {
 
 #[test]
 fn every_column_is_described_in_the_card_and_in_the_formats() {
-    let formats = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/formats.md");
+    let formats = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/reference/formats/datasets.md");
     let formats = std::fs::read_to_string(formats).expect("the formats");
     let text = card(&example(), "", "");
     let columns = descriptions();
