@@ -2,7 +2,7 @@
 //! columns.
 //!
 //! [`ParquetWriter`] writes them from the events one after the other, [`compare`] writes them again and
-//! compares the bytes, and [`descriptions`] describes every column. `docs/formats.md` has the same table.
+//! compares the bytes, and [`descriptions`] describes every column, as the dataset card does.
 //!
 //! Key design decision: a column's type is a Rust type. Nested lists of numbers determine both the file's
 //! schema and its levels, without an intermediate array library, and comparing is writing without a file: no
