@@ -69,7 +69,8 @@ struct Predictions {
 /// given, or, with `--check`, a score differs.
 pub fn run(options: &Leaderboard, context: &Context) -> Result<(), XtaskError> {
     let root = results::root();
-    let (benchmark, known) = (results::benchmark(root)?, scores(root)?);
+    let benchmark = results::benchmark(root)?;
+    let known = scores(root)?;
     let mut all = Scores { format: LEADERBOARD_FORMAT.into(), scores: Vec::new() };
     for predictions in predictions(root)? {
         let events = match predictions.set {
@@ -108,7 +109,8 @@ pub fn run(options: &Leaderboard, context: &Context) -> Result<(), XtaskError> {
 /// # Errors
 /// [`XtaskError`] if a file cannot be used, or its score is missing.
 pub fn page(root: &Path, benchmark: &Benchmark) -> Result<String, XtaskError> {
-    let (scores, predictions) = (scores(root)?, predictions(root)?);
+    let scores = scores(root)?;
+    let predictions = predictions(root)?;
     let file = root.join(FOLDER).join(SCORES);
     if let Some(missing) =
         predictions.iter().find(|it| !scores.scores.iter().any(|score| it.is_scored_by(score)))
@@ -184,7 +186,9 @@ impl Predictions {
         let measures = measures(self.task, &results).ok_or_else(|| {
             results::shape(&self.file, "has results without the measures of the leaderboard")
         })?;
-        let (method, set, predictions) = (self.method.clone(), self.set.into(), self.sha256.clone());
+        let method = self.method.clone();
+        let set = self.set.into();
+        let predictions = self.sha256.clone();
         Ok(Score { method, set, predictions, events: digest, measures })
     }
 }

@@ -48,7 +48,8 @@ impl Shape {
             .map(|(x, y)| Vec2::new(x * radius, y * radius + origin));
         let normals =
             core::array::from_fn(|k| -(corners[(k + 1) % 4] - corners[k]).perp().normalize_or_zero());
-        let (inverse_mass, inverse_inertia) = (1.0 / agent.mass(), 1.0 / agent.inertia());
+        let inverse_mass = 1.0 / agent.mass();
+        let inverse_inertia = 1.0 / agent.inertia();
         Self {
             inverse_mass,
             inverse_inertia,
@@ -69,7 +70,8 @@ impl Shape {
 
     pub(crate) fn object(radius: f32) -> Self {
         let mass = physics::object_mass(radius);
-        let (inverse_mass, inverse_inertia) = (1.0 / mass, 1.0 / physics::object_inertia(radius));
+        let inverse_mass = 1.0 / mass;
+        let inverse_inertia = 1.0 / physics::object_inertia(radius);
         Self {
             inverse_mass,
             inverse_inertia,
@@ -191,7 +193,8 @@ impl BodyMotion {
         }
     }
 
-    /// Applies an action of an agent that pushes with at most some force (N) for one substep, before friction and contacts.
+    /// Applies an action of an agent that pushes with at most some force (N) for one substep, before friction
+    /// and contacts.
     #[inline]
     pub(crate) fn act(&mut self, shape: &Shape, action: Action, max_force: f32) {
         if let Some(push) = action.push() {

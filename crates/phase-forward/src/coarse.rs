@@ -17,7 +17,8 @@ use phase_model::{AGENT_COUNT, Action, State, Vec2, arena, arena::SUBSTEPS};
 
 /// Division of a step, in substeps of 1/60 s, where bodies may collide with each other.
 const SUBSTEPS_NEAR_BODIES: &[u8] = &[3, 2];
-/// The same where only walls can be hit; impacts on walls are found in time.
+/// Division of a step, in substeps of 1/60 s, where only walls can be hit; impacts on walls are found in
+/// time.
 const SUBSTEPS_NEAR_WALLS: &[u8] = &[SUBSTEPS as u8];
 /// Maximum number of iterations of the velocity solver.
 const ITERATIONS: usize = 10;
@@ -168,7 +169,8 @@ impl World<'_> {
             groups.distribute_velocity(name, self);
         }
         for body in bodies(active & still) {
-            let (motion, (centre, angle, _)) = (&self.motions[body], self.starts[body]);
+            let motion = &self.motions[body];
+            let (centre, angle, _) = self.starts[body];
             if motion.is_at_rest() && motion.centre == centre && motion.angle == angle {
                 self.sleeping |= 1 << body;
             }
@@ -276,10 +278,12 @@ impl World<'_> {
     fn rewind(&mut self, groups: &mut Groups, name: usize, share: f32) {
         let mut turn = 0.0;
         let centre = groups.centres[name];
-        let (mut mass, mut from) = (0.0, Vec2::ZERO);
+        let mut mass = 0.0;
+        let mut from = Vec2::ZERO;
         for body in groups.bodies_of(name) {
             let (start, angle, right) = self.starts[body];
-            let (shape, motion) = (&self.model.shapes[body], &mut self.motions[body]);
+            let shape = &self.model.shapes[body];
+            let motion = &mut self.motions[body];
             turn = motion.angle - angle;
             (motion.centre, motion.angle, motion.right) = (start, angle, right);
             mass += shape.mass;

@@ -29,7 +29,8 @@ pub(crate) fn discs(a: &BodyMotion, b: &BodyMotion, skins: f32) -> Manifold {
 /// Contact of an agent (first) and a disc (second).
 pub(crate) fn agent_disc(shape: &Shape, agent: &BodyMotion, disc: &BodyMotion, skins: f32) -> Manifold {
     let centre = agent.local_vector(disc.centre - agent.centre);
-    let (mut side, mut gap) = (0, f32::MIN);
+    let mut side = 0;
+    let mut gap = f32::MIN;
     for k in 0..4 {
         let along = shape.normals[k].dot(centre - shape.corners[k]);
         if along > skins {
@@ -39,7 +40,8 @@ pub(crate) fn agent_disc(shape: &Shape, agent: &BodyMotion, disc: &BodyMotion, s
             (side, gap) = (k, along);
         }
     }
-    let (from, to) = (shape.corners[side], shape.corners[(side + 1) % 4]);
+    let from = shape.corners[side];
+    let to = shape.corners[(side + 1) % 4];
     let face = (shape.normals[side], (from + to) * 0.5);
     let (normal, anchor) = if gap < f32::EPSILON {
         face
@@ -63,7 +65,8 @@ pub(crate) fn agent_disc(shape: &Shape, agent: &BodyMotion, disc: &BodyMotion, s
 /// Contact of a wall (first) and a disc (second).
 pub(crate) fn wall_disc(wall: &Wall, disc: &BodyMotion, skins: f32) -> Manifold {
     let along = wall.b - wall.a;
-    let (to_b, from_a) = (along.dot(wall.b - disc.centre), along.dot(disc.centre - wall.a));
+    let to_b = along.dot(wall.b - disc.centre);
+    let from_a = along.dot(disc.centre - wall.a);
     let end = if from_a <= 0.0 {
         Some(wall.a)
     } else if to_b <= 0.0 {
@@ -138,9 +141,11 @@ pub(crate) fn wall_agent(wall: &Wall, agent: &BodyMotion, polygon: &Polygon) -> 
     if gap > SKINS {
         return Manifold::NONE;
     }
-    let (mut side, mut side_gap) = (0, f32::MIN);
+    let mut side = 0;
+    let mut side_gap = f32::MIN;
     for k in 0..4 {
-        let (normal, corner) = (polygon.normals[k], polygon.corners[k]);
+        let normal = polygon.normals[k];
+        let corner = polygon.corners[k];
         let separation = normal.dot(wall.a - corner).min(normal.dot(wall.b - corner));
         if separation > SKINS {
             return Manifold::NONE;

@@ -22,7 +22,7 @@ pub(crate) const ANGULAR_SLOP: f32 = 2.0 / 180.0 * core::f32::consts::PI;
 pub(crate) const SKIN: f32 = 0.01;
 /// Share of an overlap that one position iteration corrects.
 pub(crate) const BAUMGARTE: f32 = 0.2;
-/// The same after an impact on a wall.
+/// Share of an overlap that one position iteration corrects after an impact on a wall.
 pub(crate) const IMPACT_BAUMGARTE: f32 = 0.75;
 /// Maximum correction of one position iteration (u).
 pub(crate) const MAX_CORRECTION: f32 = 0.2;

@@ -59,20 +59,21 @@ impl Contact {
         Self { key, a, b, groups: (a, b), manifold, ..Self::NONE }
     }
 
-    /// The same contact, resisting only overlaps beyond a tolerated one (u).
+    /// This contact, resisting only overlaps beyond a tolerated one (u).
     pub(crate) fn tolerating(self, tolerated: f32) -> Self {
         Self { tolerated, ..self }
     }
 
     /// Computes the points of application and the effect of impulses, at the present poses.
     pub(crate) fn prepare(&mut self, shapes: &[Shape; 5], motions: &[BodyMotion; 5]) {
-        let (a, b) = (&motions[self.a], &motions[self.b]);
+        let a = &motions[self.a];
+        let b = &motions[self.b];
         self.place(&shapes[self.a], &shapes[self.b], a, b, [a.centre, b.centre], false);
         self.compute_response(shapes[self.a].inverse_mass_vector, shapes[self.b].inverse_mass_vector, false);
     }
 
-    /// The same where the two bodies are parts of rigid groups with these names, centres of mass (u) and
-    /// [`Shape::inverse_mass_vector`].
+    /// [`Contact::prepare`] where the two bodies are parts of rigid groups with these names, centres of mass
+    /// (u) and [`Shape::inverse_mass_vector`].
     #[inline]
     pub(crate) fn prepare_rigid(
         &mut self,
@@ -83,14 +84,16 @@ impl Contact {
         motions: &[BodyMotion; 5],
     ) {
         self.groups = names;
-        let (a, b) = (&motions[self.a], &motions[self.b]);
+        let a = &motions[self.a];
+        let b = &motions[self.b];
         self.place(&shapes[self.a], &shapes[self.b], a, b, centres, self.a == STATIC);
         self.compute_response(inverse_mass_vector[0], inverse_mass_vector[1], self.a == STATIC);
     }
 
-    /// The same for a contact with a wall, where only the second body moves.
+    /// [`Contact::prepare`] for a contact with a wall, where only the second body moves.
     pub(crate) fn prepare_alone(&mut self, shapes: &[Shape; 5], motion: &BodyMotion) {
-        let (wall, shape) = (&shapes[STATIC], &shapes[self.b]);
+        let wall = &shapes[STATIC];
+        let shape = &shapes[self.b];
         self.place(wall, shape, &BodyMotion::AT_REST, motion, [Vec2::ZERO, motion.centre], true);
         self.compute_response(wall.inverse_mass_vector, shape.inverse_mass_vector, true);
     }
@@ -147,7 +150,7 @@ impl Contact {
         }
     }
 
-    /// The same for a contact with a wall.
+    /// [`Contact::warm_start`] for a contact with a wall.
     #[inline]
     pub(crate) fn warm_start_alone(&self, shape: &Shape, twist: &mut Twist) {
         for point in 0..self.count {
@@ -174,7 +177,7 @@ impl Contact {
         changes[0].abs().max(changes[1].abs())
     }
 
-    /// The same for a contact with a wall.
+    /// [`Contact::solve`] for a contact with a wall.
     #[inline]
     pub(crate) fn solve_alone(&mut self, shape: &Shape, twist: &mut Twist) -> f32 {
         let changes = self.changes(|(_, row)| row.dot(*twist));
@@ -220,17 +223,21 @@ impl Contact {
         if self.a == STATIC {
             return self.separate_alone(&shapes[self.b], &mut motions[self.b], share);
         }
-        let (shape_a, shape_b) = (&shapes[self.a], &shapes[self.b]);
+        let shape_a = &shapes[self.a];
+        let shape_b = &shapes[self.b];
         let mut least = f32::MAX;
         for point in 0..self.manifold.count {
-            let (a, b) = (&motions[self.a], &motions[self.b]);
+            let a = &motions[self.a];
+            let b = &motions[self.b];
             let (normal, at, gap) = self.manifold.gap(a, b, self.skins, point);
             least = least.min(gap);
             if gap >= -LINEAR_SLOP {
                 continue;
             }
-            let (offset_a, offset_b) = (at - a.centre, at - b.centre);
-            let (arm_a, arm_b) = (offset_a.perp_dot(normal), offset_b.perp_dot(normal));
+            let offset_a = at - a.centre;
+            let offset_b = at - b.centre;
+            let arm_a = offset_a.perp_dot(normal);
+            let arm_b = offset_b.perp_dot(normal);
             let response = shape_a.inverse_mass
                 + shape_b.inverse_mass
                 + shape_a.inverse_inertia * arm_a * arm_a
@@ -242,7 +249,7 @@ impl Contact {
         least
     }
 
-    /// The same for a contact with a wall.
+    /// [`Contact::separate`] for a contact with a wall.
     #[inline]
     pub(crate) fn separate_alone(&self, shape: &Shape, motion: &mut BodyMotion, share: f32) -> f32 {
         let mut least = f32::MAX;

@@ -32,7 +32,8 @@ impl World<'_> {
             if candidates & bit(wall_key(index, body)) == 0 {
                 continue;
             }
-            let (before, after) = (wall.normal.dot(start - wall.a), wall.normal.dot(motion.centre - wall.a));
+            let before = wall.normal.dot(start - wall.a);
+            let after = wall.normal.dot(motion.centre - wall.a);
             if before * after > 0.0 || wall.is_point() {
                 continue;
             }

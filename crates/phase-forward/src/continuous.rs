@@ -60,7 +60,8 @@ impl World<'_> {
             let Some((time, wall)) = first.filter(|(time, _)| *time <= 1.0 - 10.0 * f32::EPSILON) else {
                 return last;
             };
-            let (way_before, motion_before) = (sweep, self.motions[body]);
+            let way_before = sweep;
+            let motion_before = self.motions[body];
             sweep.skip((time - spent) / (1.0 - spent));
             self.put(body, &sweep);
             met[wall] += 1;
@@ -97,7 +98,8 @@ impl World<'_> {
     /// Separates a body from walls it has just reached, removes its velocity into them, and moves it on.
     fn bounce(&mut self, body: usize, contacts: &mut [Contact], spent: f32, sweep: &mut Sweep) {
         let shapes = &self.model.shapes;
-        let (shape, motion) = (&shapes[body], &mut self.motions[body]);
+        let shape = &shapes[body];
+        let motion = &mut self.motions[body];
         for contact in contacts.iter_mut() {
             debug_assert!(contact.a == STATIC && contact.b == body);
             contact.prepare_alone(shapes, motion);

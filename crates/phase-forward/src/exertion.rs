@@ -1,8 +1,8 @@
-//! What agents do in a step.
+//! The actions of a step, and the strengths behind them.
 
 use phase_model::{AGENT_COUNT, Action};
 
-/// What both agents do in a step, and how strong they are.
+/// The actions of both agents in a step, and their strengths.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Exertion {
     /// The action of each agent.

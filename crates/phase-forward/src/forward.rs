@@ -28,9 +28,10 @@ impl Forward {
         Self { model: Model::new(physics) }
     }
 
-    /// The dynamics as the published planner imagines them: pushes act at the agent's origin, and an object that is held at
-    /// the start of a step hangs on a spring of 100 Hz between the two origins, free to pivot, which keeps their distance.
-    /// Only [`Dynamics::step`] follows this; coarse steps move holder and object as one.
+    /// The dynamics as the published planner imagines them: pushes act at the agent's origin, and an object
+    /// that is held at the start of a step hangs on a spring of 100 Hz between the two origins, free to
+    /// pivot, which keeps their distance. Only [`Dynamics::step`] follows this; coarse steps move holder and
+    /// object as one.
     #[must_use]
     pub fn imagined(physics: &PhysicsConfig) -> Self {
         let mut model = Model::new(physics);
@@ -41,9 +42,10 @@ impl Forward {
         Self { model }
     }
 
-    /// The same dynamics without collisions between bodies, as if they were points for each other: agents and objects pass
-    /// through each other, with walls stopping them at their outlines. Agents grab, hold and release as before, and
-    /// [`State::contacts`] still names the bodies that overlap, for who touches whom is a matter of goals as well.
+    /// These dynamics without collisions between bodies, as if they were points for each other: agents and
+    /// objects pass through each other, with walls stopping them at their outlines. Agents grab, hold and
+    /// release as before, and [`State::contacts`] still names the bodies that overlap, for who touches whom
+    /// is a matter of goals as well.
     #[must_use]
     pub fn without_collisions(mut self) -> Self {
         self.model.collisions = false;
@@ -187,7 +189,8 @@ impl Forward {
     /// Several substeps of a body that cannot reach anything.
     #[inline]
     fn drift(&self, world: &mut World<'_>, body: usize, substeps: usize) {
-        let (shape, motion) = (&self.model.shapes[body], &mut world.motions[body]);
+        let shape = &self.model.shapes[body];
+        let motion = &mut world.motions[body];
         let (action, max_force) = if body < AGENT_COUNT {
             (world.actions[body], world.max_forces[body])
         } else {

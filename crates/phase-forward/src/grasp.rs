@@ -1,4 +1,5 @@
-//! What connects an agent with the object it holds: a weld, or the spring that the published planner imagines.
+//! The connection of an agent with the object it holds: a weld, or the spring that the published planner
+//! imagines.
 
 use crate::{
     body::{BodyMotion, Shape, Twist},
@@ -59,7 +60,8 @@ impl Grasp {
         }
     }
 
-    /// One iteration of the position solver, which leaves springs alone. Returns whether the error was negligible.
+    /// One iteration of the position solver, which leaves springs alone. Returns whether the error was
+    /// negligible.
     pub(crate) fn join(&self, shapes: &[Shape; 5], motions: &mut [BodyMotion; 5]) -> bool {
         match self {
             Self::Weld(weld) => weld.join(shapes, motions),

@@ -38,7 +38,8 @@ impl Groups {
         let mut names = [0, 1, 2, 3, STATIC];
         for agent in 0..AGENT_COUNT {
             if let Some(held) = world.held(agent) {
-                let (kept, given_up) = (names[agent].min(names[held]), names[agent].max(names[held]));
+                let kept = names[agent].min(names[held]);
+                let given_up = names[agent].max(names[held]);
                 for name in &mut names {
                     if *name == given_up {
                         *name = kept;
@@ -87,7 +88,8 @@ impl Groups {
             return;
         }
         let shapes = &world.model.shapes;
-        let (mut mass, mut moment) = (0.0, Vec2::ZERO);
+        let mut mass = 0.0;
+        let mut moment = Vec2::ZERO;
         for body in self.bodies_of(name) {
             mass += shapes[body].mass;
             moment += world.motions[body].centre * shapes[body].mass;
@@ -112,7 +114,8 @@ impl Groups {
         }
         let mut sum = Twist::ZERO;
         for body in self.bodies_of(name) {
-            let (shape, motion) = (&world.model.shapes[body], &world.motions[body]);
+            let shape = &world.model.shapes[body];
+            let motion = &world.motions[body];
             let momentum = motion.velocity * shape.mass;
             sum.0 += Twist::of_impulse(momentum, motion.centre - self.centres[name]).0;
             sum.0.z += motion.spin / shape.inverse_inertia;
@@ -134,7 +137,8 @@ impl Groups {
     /// and the object it holds transfers some of its velocity back each time.
     pub(crate) fn stop(&mut self, body: usize, world: &World<'_>, substeps: u8) {
         let name = self.names[body];
-        let (shape, motion) = (&world.model.shapes[body], &world.motions[body]);
+        let shape = &world.model.shapes[body];
+        let motion = &world.motions[body];
         let share = shape.mass * self.inverse_mass_vector[name].x;
         let mut left = 1.0;
         for _ in 0..substeps {
@@ -149,8 +153,10 @@ impl Groups {
 
     /// Applies an agent's push or turn for some seconds.
     pub(crate) fn act(&mut self, body: usize, world: &World<'_>, seconds: f32) {
-        let (action, name) = (world.actions[body], self.names[body]);
-        let (shape, motion) = (&world.model.shapes[body], &world.motions[body]);
+        let action = world.actions[body];
+        let name = self.names[body];
+        let shape = &world.model.shapes[body];
+        let motion = &world.motions[body];
         let impulse = if let Some(push) = action.push() {
             let at = motion.place(Vec2::new(0.0, shape.push_point));
             Twist::of_impulse(motion.turn(push * (shape.max_force * seconds)), at - self.centres[name])
@@ -178,7 +184,8 @@ impl Groups {
         let alone = self.bodies[name].count_ones() < 2;
         let right = if alone { Vec2::X } else { turned(Vec2::X, turn) };
         for body in self.bodies_of(name) {
-            let (shape, motion) = (&world.model.shapes[body], &mut world.motions[body]);
+            let shape = &world.model.shapes[body];
+            let motion = &mut world.motions[body];
             motion.centre = if alone {
                 motion.centre + sweep
             } else {
@@ -255,8 +262,9 @@ impl GroundFriction {
         let name = groups.names[body];
         let offset = motion.place(Vec2::new(0.0, shape.origin)) - groups.centres[name];
         let Vec3 { x: m, z: i, .. } = groups.inverse_mass_vector[name];
-        let (xx, xy, yy) =
-            (m + i * offset.y * offset.y, -i * offset.x * offset.y, m + i * offset.x * offset.x);
+        let xx = m + i * offset.y * offset.y;
+        let xy = -i * offset.x * offset.y;
+        let yy = m + i * offset.x * offset.x;
         let scale = 1.0 / (xx * yy - xy * xy);
         Self {
             offset,

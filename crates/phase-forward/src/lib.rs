@@ -6,8 +6,8 @@
 //!
 //! - [`phase_model::Dynamics::step`], and [`Forward::step_substeps`] with its five frames, go from a state
 //!   alone. This is what belief particles use.
-//! - [`phase_model::Dynamics::step_approximate`] goes from a state alone as well, at a fraction of the cost. This is what
-//!   searches use; see below.
+//! - [`phase_model::Dynamics::step_approximate`] goes from a state alone as well, at a fraction of the cost.
+//!   This is what searches use; see below.
 //! - [`Forward::step_warm`] also takes a [`SolverCache`] of the last impulses and of the broad-phase pairs.
 //!   This is what replays of recordings need.
 //!
@@ -26,7 +26,8 @@
 //! use phase_model::{Action, AgentBody, AgentId, Body, Dynamics, Entity, PhysicsConfig, State, Vec2};
 //!
 //! let body = AgentBody { radius: 0.8, max_force: 450.0 };
-//! let physics = PhysicsConfig { walls: Vec::new(), agents: [body; 2], object_radii: [0.0; 2], object_count: 0 };
+//! let agents = [body; 2];
+//! let physics = PhysicsConfig { walls: Vec::new(), agents, object_radii: [0.0; 2], object_count: 0 };
 //! let places = [Vec2::new(10.0, 6.0), Vec2::new(20.0, 16.0), Vec2::ZERO, Vec2::ZERO];
 //! let start = State::new(places.map(|place| Body::at_rest(place, 0.0))); // both face +y
 //! let forward = Forward::new(&physics);

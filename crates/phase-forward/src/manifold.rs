@@ -51,7 +51,8 @@ impl Manifold {
     pub(crate) fn gap(&self, a: &BodyMotion, b: &BodyMotion, skins: f32, point: usize) -> (Vec2, Vec2, f32) {
         match self.reference {
             Reference::Points => {
-                let (from, to) = (a.place(self.anchor), b.place(self.points[0]));
+                let from = a.place(self.anchor);
+                let to = b.place(self.points[0]);
                 let normal = (to - from).normalize_or_zero();
                 (normal, (from + to) * 0.5, (to - from).dot(normal) - skins)
             }
@@ -101,7 +102,8 @@ impl Manifold {
         let mut middles = [Vec2::ZERO; 2];
         match self.reference {
             Reference::Points => {
-                let (from, to) = (a.place(self.anchor), b.place(self.points[0]));
+                let from = a.place(self.anchor);
+                let to = b.place(self.points[0]);
                 let normal = (to - from).try_normalize().unwrap_or(Vec2::X);
                 middles[0] = (from + normal * skin_a + to - normal * skin_b) * 0.5;
                 (normal, middles)

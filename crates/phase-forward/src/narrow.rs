@@ -13,8 +13,8 @@ use crate::{
 use phase_model::{AGENT_COUNT, physics::RELEASED_OVERLAP};
 
 impl World<'_> {
-    /// Finds the touching pairs of shapes in a set that resist it, newest first. The outlines of the bodies must be up to
-    /// date.
+    /// Finds the touching pairs of shapes in a set that resist it, newest first. The outlines of the bodies
+    /// must be up to date.
     pub(crate) fn contacts(&self, candidates: KeySet) -> impl Iterator<Item = Contact> {
         descending(self.model.resisting(candidates)).filter_map(|key| {
             let (bodies, manifold) = self.collide(key, &self.outlines.polygons);
@@ -25,9 +25,11 @@ impl World<'_> {
 
     /// The contact of a pair of shapes.
     pub(crate) fn collide(&self, key: usize, polygons: &[Polygon; 2]) -> ((usize, usize), Manifold) {
-        let (motions, shapes) = (&self.motions, &self.model.shapes);
+        let motions = &self.motions;
+        let shapes = &self.model.shapes;
         if key < pair_key(0) {
-            let (wall, body) = (&self.model.walls[key / 4], key % 4);
+            let wall = &self.model.walls[key / 4];
+            let body = key % 4;
             let manifold = if body < AGENT_COUNT {
                 collide::wall_agent(wall, &motions[body], &polygons[body])
             } else {

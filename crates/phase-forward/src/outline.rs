@@ -50,7 +50,7 @@ impl Outlines {
         self.current &= !(1 << body);
     }
 
-    /// The same for all bodies.
+    /// Records that the poses of all bodies have changed.
     pub(crate) fn all_moved(&mut self) {
         self.current = 0;
     }

@@ -38,8 +38,10 @@ impl Polygon {
     pub(crate) fn max_separation(&self, other: &Self, towards: Vec2) -> (usize, f32) {
         let side = self.incident_side(-towards);
         let gap = self.gap(side, other);
-        let (previous, next) = ((side + 3) % 4, (side + 1) % 4);
-        let (gap_previous, gap_next) = (self.gap(previous, other), self.gap(next, other));
+        let previous = (side + 3) % 4;
+        let next = (side + 1) % 4;
+        let gap_previous = self.gap(previous, other);
+        let gap_next = self.gap(next, other);
         let (mut best, step) = if gap_previous > gap && gap_previous > gap_next {
             ((previous, gap_previous), 3)
         } else if gap_next > gap {

@@ -27,7 +27,8 @@ pub(crate) fn reachable_bodies(world: &mut World<'_>) -> BodyMask {
     let mut reachable_bodies: BodyMask = 0;
     let mut max_displacements = [0.0_f32; 4];
     for (body, longest) in max_displacements.iter_mut().enumerate().take(model.count) {
-        let (motion, shape) = (&world.motions[body], &model.shapes[body]);
+        let motion = &world.motions[body];
+        let shape = &model.shapes[body];
         let mut sweep = motion.velocity.length() * STEP;
         if body < AGENT_COUNT && world.actions[body].push().is_some() {
             sweep += shape.max_force * shape.inverse_mass * DISPLACEMENT_PER_ACCELERATION;
@@ -37,7 +38,8 @@ pub(crate) fn reachable_bodies(world: &mut World<'_>) -> BodyMask {
         reachable_bodies |= u8::from(world.walls[body] != 0) << body;
     }
     world.max_displacements = max_displacements;
-    let (mut grouped, mut joint_error): (BodyMask, f32) = (0, 0.0);
+    let mut grouped: BodyMask = 0;
+    let mut joint_error: f32 = 0.0;
     for agent in 0..AGENT_COUNT {
         if let Some(held) = world.held(agent) {
             grouped |= 1 << agent | 1 << held;
@@ -67,7 +69,8 @@ pub(crate) fn reachable_bodies(world: &mut World<'_>) -> BodyMask {
             .sum();
         together = 2.0 * sum + joint_error + CORRECTION_MARGIN;
         for (a, b) in PAIRS {
-            let (first, second) = (grouped & 1 << a != 0, grouped & 1 << b != 0);
+            let first = grouped & 1 << a != 0;
+            let second = grouped & 1 << b != 0;
             if first != second
                 && reaches(a, b, together + if first { max_displacements[b] } else { max_displacements[a] })
             {
@@ -94,7 +97,8 @@ pub(crate) fn groups_may_collide(world: &World<'_>, groups: &Groups) -> bool {
         && PAIRS.into_iter().any(|(a, b)| {
             let excluded_pairs = groups.names[a] != groups.names[b] && b < model.count;
             let reach = model.shapes[a].bounding_radius + model.shapes[b].bounding_radius + MARGIN;
-            let (first, second) = (&world.motions[a], &world.motions[b]);
+            let first = &world.motions[a];
+            let second = &world.motions[b];
             let distance_squared = first.centre.distance_squared(second.centre);
             excluded_pairs && {
                 let reach = reach + sweep(a) + sweep(b);
@@ -190,7 +194,8 @@ pub(crate) fn may_meet_wall(world: &World<'_>, body: usize, (from_min, from_max)
     }
     // The boxes of walls include their skin.
     let room = time_of_impact::room(&world.model.shapes[body]) - SKIN;
-    let (min, max) = (from_min.min(to_min) - room, from_max.max(to_max) + room);
+    let min = from_min.min(to_min) - room;
+    let max = from_max.max(to_max) + room;
     world.walls[body] & world.model.boxes.near(min, max) != 0
 }
 
@@ -202,7 +207,8 @@ pub(crate) fn walls_swept(world: &World<'_>, body: usize) -> KeySet {
         return 0;
     }
     let room = world.model.shapes[body].bounding_radius;
-    let (min, max) = (start.min(motion.centre) - room, start.max(motion.centre) + room);
+    let min = start.min(motion.centre) - room;
+    let max = start.max(motion.centre) + room;
     wall_keys(world.model.boxes.near(min, max), body)
 }
 

@@ -32,7 +32,8 @@ impl World<'_> {
                 self.released |= bit(pair_key(pair_of(agent, held)));
             }
             for object in AGENT_COUNT..self.model.count {
-                let (motion, held) = (&self.motions[agent], &self.motions[object]);
+                let motion = &self.motions[agent];
+                let held = &self.motions[object];
                 let reach = self.model.shapes[agent].radius + self.model.shapes[object].radius;
                 let between = held.centre - motion.place(Vec2::new(0.0, self.model.shapes[agent].origin));
                 if between.length_squared() > (reach + CLEARANCE) * (reach + CLEARANCE)

@@ -1,4 +1,5 @@
-//! A grip as the published planner imagines it: a stiff spring between two body origins, free to pivot at both ends.
+//! A grip as the published planner imagines it: a stiff spring between two body origins, free to pivot at
+//! both ends.
 
 use crate::{
     body::{BodyMotion, Shape, Twist},
@@ -49,15 +50,16 @@ impl Rod {
         }
     }
 
-    /// Computes the effect of impulses at the present poses, and applies the accumulated one. Origins that coincide have
-    /// no direction, and the spring no effect.
+    /// Computes the effect of impulses at the present poses, and applies the accumulated one. Origins that
+    /// coincide have no direction, and the spring no effect.
     pub(crate) fn prepare(
         &mut self,
         shapes: &[Shape; 5],
         motions: &[BodyMotion; 5],
         twists: &mut [Twist; 5],
     ) {
-        let (shape, held) = (&shapes[self.agent], &shapes[self.object]);
+        let shape = &shapes[self.agent];
+        let held = &shapes[self.object];
         self.offset = motions[self.agent].turn(Vec2::new(0.0, shape.origin));
         let between = motions[self.object].centre - motions[self.agent].centre - self.offset;
         let length = between.length();
@@ -76,7 +78,8 @@ impl Rod {
     /// One iteration of the velocity solver. Returns the change of the impulse.
     #[inline]
     pub(crate) fn solve(&mut self, shapes: &[Shape; 5], twists: &mut [Twist; 5]) -> f32 {
-        let ((agent, spin), (object, _)) = (twists[self.agent].parts(), twists[self.object].parts());
+        let (agent, spin) = twists[self.agent].parts();
+        let (object, _) = twists[self.object].parts();
         let stretch = self.direction.dot(object - agent - self.offset.perp() * spin);
         let change = -self.mass * (stretch + self.bias + self.softness * self.impulse);
         self.impulse += change;

@@ -28,7 +28,7 @@ pub struct SolverCache {
     pub(crate) impulses: Impulses,
     /// The contacts of the last substep.
     pub(crate) traces: CachedContacts,
-    /// When each pair became a contact candidate; 0 for pairs that never were.
+    /// The time at which each pair became a contact candidate; 0 for pairs that never were.
     pub(crate) since: [u32; KEYS],
     pub(crate) now: u32,
     pub(crate) active_pairs: KeySet,
@@ -131,7 +131,7 @@ impl SolverCache {
         self.find_new_pairs(world);
     }
 
-    /// The same for one body, after an impact.
+    /// [`SolverCache::update_boxes`] for one body, after an impact.
     pub(crate) fn update_box(&mut self, world: &World<'_>, body: usize) {
         let now = world.motions[body];
         self.refit_box(&world.model.shapes[body], body, &now, &now);
@@ -161,8 +161,10 @@ impl SolverCache {
     }
 
     fn refit_box(&mut self, shape: &Shape, body: usize, before: &BodyMotion, after: &BodyMotion) {
-        let (start, end) = (bounds(shape, before), bounds(shape, after));
-        let (min, max) = (start.0.min(end.0), start.1.max(end.1));
+        let start = bounds(shape, before);
+        let end = bounds(shape, after);
+        let min = start.0.min(end.0);
+        let max = start.1.max(end.1);
         let (old_min, old_max) = self.boxes[body];
         if old_min.cmple(min).all() && old_max.cmpge(max).all() {
             return;

@@ -21,7 +21,8 @@ impl World<'_> {
     pub(crate) fn solve(&mut self, reachable_bodies: BodyMask, touching: &mut ContactSet) {
         let mut grasps: [Option<Grasp>; AGENT_COUNT] = [None; AGENT_COUNT];
         // Bodies that lean on walls, and bodies that are connected with others.
-        let (mut leaning, mut linked): (BodyMask, BodyMask) = (0, 0);
+        let mut leaning: BodyMask = 0;
+        let mut linked: BodyMask = 0;
         for (agent, grasp) in grasps.iter_mut().enumerate() {
             if let (Some(grip), Some(held)) = (&self.grips[agent], self.held(agent)) {
                 linked |= 1 << agent | 1 << held;
@@ -44,7 +45,8 @@ impl World<'_> {
             if reachable_bodies & 1 << body == 0 {
                 continue;
             }
-            let (shape, motion) = (&self.model.shapes[body], &mut self.motions[body]);
+            let shape = &self.model.shapes[body];
+            let motion = &mut self.motions[body];
             self.starts[body] = (motion.centre, motion.angle, motion.right);
             still |= u8::from(motion.is_at_rest()) << body;
             if body < AGENT_COUNT {
@@ -76,7 +78,8 @@ impl World<'_> {
             if reachable_bodies & 1 << body == 0 {
                 continue;
             }
-            let (motion, (centre, angle, _)) = (&self.motions[body], self.starts[body]);
+            let motion = &self.motions[body];
+            let (centre, angle, _) = self.starts[body];
             if motion.centre != centre || motion.angle != angle {
                 self.moved(body);
             } else if still & 1 << body != 0 && motion.is_at_rest() {
@@ -97,7 +100,8 @@ impl World<'_> {
         let mut island = Island::EMPTY;
         let mut taken = 0_u32;
         let mut joined: u8 = 0;
-        let (mut stack, mut height) = ([seed; 4], 1);
+        let mut stack = [seed; 4];
+        let mut height = 1;
         *done |= 1 << seed;
         while height > 0 {
             height -= 1;
@@ -145,7 +149,8 @@ impl World<'_> {
     /// Solves a body that touches nothing but walls.
     fn solve_alone(&mut self, body: usize, all: &mut [Contact]) {
         let shapes = &self.model.shapes;
-        let (shape, motion) = (&shapes[body], &mut self.motions[body]);
+        let shape = &shapes[body];
+        let motion = &mut self.motions[body];
         let mut twist = motion.twist();
         let mut ground = self.impulses.ground[body];
         for contact in all.iter_mut().filter(|contact| contact.b == body) {

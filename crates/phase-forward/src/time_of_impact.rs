@@ -50,8 +50,8 @@ impl Sweep {
     }
 }
 
-/// When a body on its path reaches a wall, as a share of the path; `None` if it does not, or if it overlaps
-/// the wall from the start.
+/// The moment at which a body on its path reaches a wall, as a share of the path; `None` if it does not, or
+/// if it overlaps the wall from the start.
 pub(crate) fn time_of_impact(shape: &Shape, sweep: &Sweep, wall: &Wall) -> Option<f32> {
     let polygon = shape.origin > 0.0;
     let target = target(shape);
@@ -80,7 +80,8 @@ pub(crate) fn time_of_impact(shape: &Shape, sweep: &Sweep, wall: &Wall) -> Optio
             if gap_now <= target + TOLERANCE {
                 return Some(now);
             }
-            let (mut low, mut high) = (now, later);
+            let mut low = now;
+            let mut high = later;
             for root in 0..ROOTS {
                 let t = if root % 2 == 1 {
                     low + (target - gap_now) * (high - low) / (gap_later - gap_now)
@@ -140,7 +141,8 @@ impl SweepEnds {
     #[inline]
     pub(crate) fn clear_of(&self, wall: &Wall) -> bool {
         let side = |centre: Vec2| wall.normal.dot(centre - wall.a);
-        let (before, after) = (side(self.centres[0]), side(self.centres[1]));
+        let before = side(self.centres[0]);
+        let after = side(self.centres[1]);
         let Some(polygons) = &self.polygons else {
             return before * after > 0.0 && before.abs() > self.clear && after.abs() > self.clear;
         };
@@ -192,7 +194,8 @@ impl Search<'_> {
         let along = wall.b - wall.a;
         for corner in self.corners {
             let point = motion.place(*corner);
-            let (before, after) = (along.dot(point - wall.a), along.dot(wall.b - point));
+            let before = along.dot(point - wall.a);
+            let after = along.dot(wall.b - point);
             if before > 0.0 && after > 0.0 {
                 let gap = side.dot(point - wall.a).abs();
                 if gap < best.0 {
@@ -208,7 +211,8 @@ impl Search<'_> {
         }
         if self.polygon {
             for k in 0..4 {
-                let (from, to) = (self.corners[k], self.corners[(k + 1) % 4]);
+                let from = self.corners[k];
+                let to = self.corners[(k + 1) % 4];
                 for end in [wall.a, wall.b] {
                     let end = motion.local_vector(end - motion.centre);
                     if (end - from).dot(to - from) > 0.0 && (end - to).dot(from - to) > 0.0 {
@@ -226,10 +230,12 @@ impl Search<'_> {
     /// Whether neither a side of the body nor the wall itself separates the two.
     fn overlap(&self, motion: &BodyMotion, side: Vec2) -> bool {
         let polygon = Polygon::new(self.shape, motion);
-        let (a, b) = (self.wall.a, self.wall.b);
+        let a = self.wall.a;
+        let b = self.wall.b;
         polygon.corners.iter().any(|corner| side.dot(*corner - a) <= 0.0)
             && (0..4).all(|k| {
-                let (normal, corner) = (polygon.normals[k], polygon.corners[k]);
+                let normal = polygon.normals[k];
+                let corner = polygon.corners[k];
                 normal.dot(a - corner).min(normal.dot(b - corner)) <= 0.0
             })
     }

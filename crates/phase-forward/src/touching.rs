@@ -82,7 +82,7 @@ impl fmt::Debug for CachedContacts {
 impl CachedContacts {
     pub(crate) const NONE: Self = Self { list: [CachedContact::NONE; MAX_CONTACTS], count: 0 };
 
-    /// What is kept, newest first.
+    /// The contacts that are kept, newest first.
     pub(crate) fn kept(&self) -> &[CachedContact] {
         &self.list[..self.count]
     }

@@ -92,7 +92,8 @@ impl WallBoxes {
 /// The original builds each chain of edges with a degenerate second edge, so there is a point contact at
 /// the second corner of the boundary, (26, 22), and at the far end of each inner wall.
 pub(crate) fn walls(inner: &[Segment]) -> ([Wall; MAX_WALLS], usize) {
-    let (min, max) = (arena::MIN, arena::MAX);
+    let min = arena::MIN;
+    let max = arena::MAX;
     let corners = [Vec2::new(min.x, max.y), max, Vec2::new(max.x, min.y), min];
     let mut walls = [Wall::new(max, max); MAX_WALLS];
     walls[0] = Wall::new(corners[0], corners[1]);

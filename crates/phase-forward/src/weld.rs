@@ -25,7 +25,8 @@ impl Weld {
     /// The constraint of a grip of an agent (body 0 or 1), with the impulse of the substep before.
     pub(crate) fn new(agent: usize, grip: &Grip, shapes: &[Shape; 5], impulse: (Vec2, f32)) -> Self {
         let object = held_body(grip);
-        let (holder, held) = (&shapes[agent], &shapes[object]);
+        let holder = &shapes[agent];
+        let held = &shapes[object];
         let reach = grip.side.direction() * (holder.radius + held.radius);
         Self {
             agent,
@@ -54,8 +55,8 @@ impl Weld {
     /// One iteration of the velocity solver. Returns the maximum change of an impulse.
     #[inline]
     pub(crate) fn solve(&mut self, shapes: &[Shape; 5], twists: &mut [Twist; 5]) -> f32 {
-        let ((agent, agent_spin), (object, object_spin)) =
-            (twists[self.agent].parts(), twists[self.object].parts());
+        let (agent, agent_spin) = twists[self.agent].parts();
+        let (object, object_spin) = twists[self.object].parts();
         let slip = object - agent - self.offset.perp() * agent_spin;
         let (impulse, twist) = self.inverse.times(-slip, agent_spin - object_spin);
         self.impulse.0 += impulse;
@@ -66,8 +67,10 @@ impl Weld {
 
     /// One iteration of the position solver. Returns whether the error was negligible.
     pub(crate) fn join(&self, shapes: &[Shape; 5], motions: &mut [BodyMotion; 5]) -> bool {
-        let (shape_a, shape_b) = (&shapes[self.agent], &shapes[self.object]);
-        let (agent, object) = (&motions[self.agent], &motions[self.object]);
+        let shape_a = &shapes[self.agent];
+        let shape_b = &shapes[self.object];
+        let agent = &motions[self.agent];
+        let object = &motions[self.object];
         let offset = agent.turn(self.anchor);
         let separation = object.centre - agent.centre - offset;
         let twisted = object.angle - agent.angle - self.relative_angle;

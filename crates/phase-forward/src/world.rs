@@ -30,7 +30,7 @@ pub(crate) struct World<'a> {
     pub(crate) model: &'a Model,
     /// The four bodies and the static body for all walls.
     pub(crate) motions: [BodyMotion; 5],
-    /// Where each body was at the start of the substep: centre, angle, unit vector to its right.
+    /// Pose of each body at the start of the substep: centre, angle, unit vector to its right.
     pub(crate) starts: [(Vec2, f32, Vec2); 4],
     pub(crate) outlines: Outlines,
     /// For each body, the walls that it can reach in this step.
@@ -48,9 +48,9 @@ pub(crate) struct World<'a> {
     pub(crate) excluded_pairs: KeySet,
     /// Pairs whose contact tolerates an overlap: released, and not yet clear.
     pub(crate) released: KeySet,
-    /// Where all bodies were at the release.
+    /// Places of all bodies at the release (u).
     pub(crate) let_go_at: [Vec2; 4],
-    /// How far each body has to move from there before it counts as clear (u).
+    /// Distance that each body has to move from there before it counts as clear (u).
     pub(crate) release_distance: [f32; 4],
     /// Sleeping bodies: at rest and in equilibrium with ground friction and walls.
     pub(crate) sleeping: u8,
@@ -105,20 +105,24 @@ impl<'a> World<'a> {
         (body < self.model.count).then_some(body)
     }
 
-    /// Distance between a held object and where its agent holds it (u); springs are at rest at the start of a step.
+    /// Distance between a held object and where its agent holds it (u); springs are at rest at the start of a
+    /// step.
     pub(crate) fn joint_error(&self, agent: usize) -> Option<f32> {
-        let (grip, held) = (self.grips[agent].as_ref()?, self.held(agent)?);
+        let grip = self.grips[agent].as_ref()?;
+        let held = self.held(agent)?;
         if self.rest_lengths[agent].is_some() {
             return Some(0.0);
         }
-        let (shape, holder) = (&self.model.shapes[agent], &self.motions[agent]);
+        let shape = &self.model.shapes[agent];
+        let holder = &self.motions[agent];
         let reach = grip.side.direction() * (shape.radius + self.model.shapes[held].radius);
         let place = holder.place(reach + Vec2::new(0.0, shape.origin));
         Some(place.distance(self.motions[held].centre))
     }
 
-    /// Writes the bodies and grips into a state, whose contacts are not changed. Origins lie inside the arena, as in the reference
-    /// world: an agent's is ahead of its centre of mass, which alone is contained while bodies move.
+    /// Writes the bodies and grips into a state, whose contacts are not changed. Origins lie inside the
+    /// arena, as in the reference world: an agent's is ahead of its centre of mass, which alone is contained
+    /// while bodies move.
     pub(crate) fn write(&self, state: &mut State) {
         for index in 0..self.model.count {
             let body = &mut state.bodies[index];
@@ -166,7 +170,7 @@ impl<'a> World<'a> {
         self.outlines.moved(body);
     }
 
-    /// The same for all bodies.
+    /// Records that the poses of all bodies have changed.
     pub(crate) fn all_moved(&mut self) {
         self.outlines.all_moved();
     }
@@ -202,8 +206,8 @@ fn unpacked(model: &Model, index: usize, body: &Body) -> BodyMotion {
     motion
 }
 
-/// The same grip, at the actual angle of its object if the stated angle differs much from that or is NaN. Takes the angles of the
-/// bodies.
+/// A grip at the actual angle of its object if the stated angle differs much from that or is NaN.
+/// Takes the angles of the bodies.
 fn sanitized_grip(grip: Grip, agent: usize, angles: &[f32; 5]) -> Grip {
     let angle = angles[held_body(&grip)] - angles[agent];
     let is_sane = (grip.relative_angle - angle).abs() <= MAX_GRIP_ANGLE;

@@ -91,14 +91,14 @@ fn a_push_in_the_open_takes_bodies_as_far() {
     assert!(exact.bodies[0].position.distance(Vec2::new(12.0, 6.0)) > 1.0, "it went somewhere");
 }
 
-/// Runs of random actions from random scenes in the two tests below, and the share of them that may break a rule. What
-/// others press against a wall can be pushed deep into it, or out of a grip, by a coarse step: the former in less than one
-/// of 1000 runs (60 000 tried), the latter in about one of 4000 (20 000 tried).
+/// Runs of random actions from random scenes in the two tests below, and the share of them that may break a
+/// rule. What others press against a wall can be pushed deep into it, or out of a grip, by a coarse step: the
+/// former in less than one of 1000 runs (60 000 tried), the latter in about one of 4000 (20 000 tried).
 const CASES: u32 = 200;
 const EXCEPTIONS: f32 = 0.01;
 
-/// Asserts that `breaks` is true for hardly any run. It is shown each step: the scene, the state before, the actions and
-/// the state after; an error is never permitted.
+/// Asserts that `breaks` is true for hardly any run. It is shown each step: the scene, the state before, the
+/// actions and the state after; an error is never permitted.
 fn assert_rare(breaks: impl Fn(&PhysicsConfig, &State, [Action; 2], &State) -> Result<bool, TestCaseError>) {
     let exceptions = Cell::new(0_u32);
     let config = ProptestConfig { cases: CASES, failure_persistence: None, ..ProptestConfig::default() };

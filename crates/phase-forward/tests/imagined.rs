@@ -1,4 +1,5 @@
-//! The published planner's idea of the dynamics: a held object hangs on a spring that keeps its distance and no more.
+//! The published planner's idea of the dynamics: a held object hangs on a spring that keeps its distance and
+//! no more.
 
 use phase_forward::Forward;
 use phase_model::{
@@ -18,7 +19,8 @@ fn physics() -> PhysicsConfig {
     PhysicsConfig { walls: Vec::new(), agents: [body; 2], object_radii: [RADIUS; 2], object_count: 1 }
 }
 
-/// An agent that faces +y with an object in front of its head, a little further if it is not held; another far away.
+/// An agent that faces +y with an object in front of its head, a little further if it is not held; another
+/// far away.
 fn holding(held: bool) -> State {
     let places =
         [Vec2::new(10.0, 8.0), Vec2::new(22.0, 18.0), Vec2::new(10.0, 8.0 + 2.0 * RADIUS), Vec2::ZERO];
@@ -50,7 +52,8 @@ fn pushed_straight_both_models_carry_alike() {
     }
 }
 
-/// On a spring an agent turns as if its hands were free, and the object stays; welded it has to swing it along.
+/// On a spring an agent turns as if its hands were free, and the object stays; welded it has to swing it
+/// along.
 #[test]
 fn turning_leaves_the_object_where_it_is() {
     let imagined = Forward::imagined(&physics());

@@ -5,8 +5,8 @@ mod walls;
 
 use phase_forward::Forward;
 use phase_model::{
-    Action, AgentBody, Body, Dynamics, Entity, Grip, Layout, ObjectId, PhysicsConfig, Side, Size, State,
-    Vec2, arena,
+    Action, AgentBody, Body, Dynamics, Entity, Grip, Layout, ObjectId, PhysicsConfig, Side, State, Vec2,
+    arena,
     geometry::Outline,
     physics::{GROUND_FRICTION, object_inertia, object_mass},
 };
@@ -32,6 +32,7 @@ fn grips() -> impl Strategy<Value = Option<Grip>> {
         }),
     )
 }
+
 /// Bodies anywhere in the arena, even in walls and in each other, moving at up to a hundred units a second.
 fn bodies() -> impl Strategy<Value = [Body; 4]> {
     let body = || {
@@ -114,7 +115,8 @@ proptest! {
             let (mut before, mut again) = (state, state);
             let substeps = forward.step_substeps(&mut state, actions);
             for (k, after) in substeps.iter().enumerate() {
-                check(&physics, &before, after).map_err(|e| TestCaseError::fail(format!("substep {k}: {e}")))?;
+                let named = |error| TestCaseError::fail(format!("substep {k}: {error}"));
+                check(&physics, &before, after).map_err(named)?;
                 before = *after;
             }
             forward.step(&mut again, actions);
@@ -221,62 +223,6 @@ proptest! {
                     let outside = place.distance(place.clamp(arena::MIN, arena::MAX));
                     prop_assert!(outside <= 0.3, "{entity:?} is {outside} u outside: {state:?}");
                 }
-            }
-        }
-    }
-
-    #[test]
-    fn ground_friction_only_slows(velocity in (-40.0..40.0_f32, -40.0..40.0_f32), angle in -9.0..9.0_f32, size in 0..4_usize) {
-        let physics = PhysicsConfig {
-            walls: Vec::new(),
-            agents: [AgentBody { radius: Size::ALL[size].radius(), max_force: 300.0 }; 2],
-            object_radii: [1.2, 0.8],
-            object_count: 1,
-        };
-        let forward = Forward::new(&physics);
-        for (moving, other, mass) in [(0, 2, physics.agents[0].mass()), (2, 0, object_mass(1.2))] {
-            let mut state = State::new([[8.0, 5.0], [24.0, 5.0], [24.0, 19.0], [8.0, 19.0]].map(|[x, y]| Body::at_rest(Vec2::new(x, y), angle)));
-            state.bodies[other].position = Vec2::new(8.0, 5.0);
-            state.bodies[moving].position = arena::CENTRE;
-            state.bodies[moving].velocity = Vec2::new(velocity.0, velocity.1);
-            let substeps = forward.step_substeps(&mut state, [Action::NoForce; 2]);
-            let mut speed = Vec2::new(velocity.0, velocity.1).length();
-            for after in substeps {
-                let now = after.bodies[moving].velocity.length();
-                prop_assert!(now <= speed + 1e-4, "{speed} -> {now}");
-                // Its force never exceeds 100 N, and equals 100 N as long as a disc slides.
-                let loss = 100.0 / 60.0 / mass;
-                prop_assert!(now >= speed - loss - 1e-3);
-                if moving == 2 && speed > loss && speed < 40.0 {
-                    prop_assert!((speed - now - loss).abs() < 1e-3, "{speed} -> {now}, not {loss}");
-                }
-                speed = now;
-            }
-        }
-    }
-
-    #[test]
-    fn colliding_bodies_keep_their_momentum(offset in -1.5..1.5_f32, speed in 1.0..25.0_f32, mover in 0..4_usize, next in 1..4_usize, angle in -4.0..4.0_f32) {
-        let physics = PhysicsConfig {
-            walls: Vec::new(),
-            agents: [AgentBody { radius: 0.8, max_force: 300.0 }, AgentBody { radius: 1.2, max_force: 300.0 }],
-            object_radii: [0.8, 1.2],
-            object_count: 2,
-        };
-        let forward = Forward::new(&physics);
-        let masses = [physics.agents[0].mass(), physics.agents[1].mass(), object_mass(0.8), object_mass(1.2)];
-        let struck = (mover + next) % 4;
-        let mut state = State::new([[8.0, 4.0], [24.0, 4.0], [24.0, 20.0], [8.0, 20.0]].map(|[x, y]| Body::at_rest(Vec2::new(x, y), angle)));
-        state.bodies[mover].position = Vec2::new(12.5, 12.0);
-        state.bodies[mover].velocity = Vec2::new(speed, 0.0);
-        state.bodies[struck].position = Vec2::new(16.0, 12.0 + offset);
-        let momentum = |state: &State| -> Vec2 { state.bodies.iter().zip(masses).map(|(body, mass)| body.velocity * mass).sum() };
-        for _ in 0..6 {
-            let mut before = state;
-            for after in forward.step_substeps(&mut state, [Action::NoForce; 2]) {
-                let change = momentum(&after).distance(momentum(&before));
-                prop_assert!(change <= 2.0 * 100.0 / 60.0 + 1e-3, "momentum changed by {change}");
-                before = after;
             }
         }
     }

@@ -11,7 +11,8 @@ const BALL: Entity = Entity::Object(ObjectId::ZERO);
 const RADIUS: f32 = 0.8;
 /// Where nothing is in reach of the others (u).
 const FAR: Vec2 = Vec2::new(24.0, 19.0);
-/// Speed of a body on a collision course (u/s), enough to pass through the other in [`STEPS`] whatever the ground takes.
+/// Speed of a body on a collision course (u/s), enough to pass through the other in [`STEPS`] whatever the
+/// ground takes.
 const SPEED: f32 = 20.0;
 const STEPS: usize = 12;
 

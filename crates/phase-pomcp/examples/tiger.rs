@@ -1,9 +1,9 @@
 //! Definition and solution of a custom problem: the tiger behind one of two doors (Kaelbling, Littman &
 //! Cassandra 1998).
 //!
-//! The problem is the `impl` block, the solution is `main`: twelve steps of an episode, with a search and an update of
-//! the belief at each. Run it with `cargo run --release -p phase-pomcp --example tiger -- [SEED]`; the example `anchors`
-//! measures the returns of whole episodes.
+//! The problem is the `impl` block, the solution is `main`: twelve steps of an episode, with a search and an
+//! update of the belief at each. Run it with `cargo run --release -p phase-pomcp --example tiger -- [SEED]`;
+//! the example `anchors` measures the returns of whole episodes.
 
 use phase_pomcp::{BeliefModel, GenerativeModel, ParticleBelief, Pomcp, PomcpSettings, Transition};
 use rand::{Rng, RngExt, SeedableRng};

@@ -5,14 +5,14 @@ use thiserror::Error;
 
 use crate::GenerativeModel;
 
-/// What a problem knows of its hidden state beside one step of it, which keeps a particle belief alive. A problem
-/// without such knowledge has an empty `impl`.
+/// Knowledge of a problem's hidden state beside one step of it, which keeps a particle belief alive. A
+/// problem without such knowledge has an empty `impl`.
 pub trait BeliefModel: GenerativeModel {
-    /// Resamples part of what is hidden in a particle, consistently with all actions and observations so far, of which
-    /// `action` and `observation` are the last. It is called for every particle after an update.
+    /// Resamples part of what is hidden in a particle, consistently with all actions and observations so far,
+    /// of which `action` and `observation` are the last. It is called for every particle after an update.
     ///
-    /// Does nothing unless overridden. Where a hidden part never changes, rejection can only ever remove its values:
-    /// without this hook few distinct particles are left in the end.
+    /// Does nothing unless overridden. Where a hidden part never changes, rejection can only ever remove its
+    /// values: without this hook few distinct particles are left in the end.
     fn reinvigorate(
         &self,
         _particle: &mut Self::State,
@@ -22,8 +22,8 @@ pub trait BeliefModel: GenerativeModel {
     ) {
     }
 
-    /// A particle consistent with the last action and observation, for when an observation contradicts all particles;
-    /// `None`, unless overridden, if there is none.
+    /// A particle consistent with the last action and observation, for when an observation contradicts all
+    /// particles; `None`, unless overridden, if there is none.
     fn recover(
         &self,
         _action: usize,
@@ -52,7 +52,7 @@ pub enum BeliefError {
     },
 }
 
-/// How an update came about.
+/// The course of an update.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct BeliefUpdate {
     /// Particles advanced by the model.
@@ -72,7 +72,8 @@ pub struct ParticleBelief<S> {
     attempts: usize,
 }
 
-/// Particles advanced in an update, for each particle of the belief, before it makes do with copies of those kept.
+/// Particles advanced in an update, for each particle of the belief, before it makes do with copies of those
+/// kept.
 ///
 /// An observation less likely than one in a hundred leaves fewer distinct particles than there were.
 pub const DEFAULT_ATTEMPTS: usize = 100;
@@ -102,12 +103,12 @@ impl<S: Clone> ParticleBelief<S> {
         &self.particles
     }
 
-    /// Updates the belief after an action and an observation, in a problem that has not ended: a particle is sampled,
-    /// advanced by the model, and kept if the problem goes on with the same observation, until there are as many as
-    /// before (Silver & Veness 2010, section 3.2). Then each is reinvigorated.
+    /// Updates the belief after an action and an observation, in a problem that has not ended: a particle is
+    /// sampled, advanced by the model, and kept if the problem goes on with the same observation, until there
+    /// are as many as before (Silver & Veness 2010, section 3.2). Then each is reinvigorated.
     ///
-    /// Where an unlikely observation leaves too few after so many attempts, the rest are copies of those; where it
-    /// leaves none, the model may make new ones.
+    /// Where an unlikely observation leaves too few after so many attempts, the rest are copies of those;
+    /// where it leaves none, the model may make new ones.
     ///
     /// # Errors
     /// [`BeliefError::Contradicted`].

@@ -21,8 +21,10 @@
 //!     fn action_count(&self) -> usize { 3 }
 //!     fn discount(&self) -> f64 { 0.95 }
 //!     fn step(&self, cup: &mut usize, action: usize, _: &mut impl Rng) -> Transition<Option<usize>> {
-//!         let (observation, reward) = if action == 2 { (Some(*cup), -0.1) } else { (None, f64::from(action == *cup)) };
-//!         Transition { observation, reward, terminal: action != 2 }
+//!         let peeks = action == 2;
+//!         let observation = peeks.then_some(*cup);
+//!         let reward = if peeks { -0.1 } else { f64::from(action == *cup) };
+//!         Transition { observation, reward, terminal: !peeks }
 //!     }
 //! }
 //!
@@ -35,9 +37,9 @@
 //! # Ok::<(), phase_pomcp::PomcpError>(())
 //! ```
 //!
-//! A generator is any of `rand` 0.10, here `rand_pcg`'s. `examples/tiger.rs` goes on to whole episodes, with a
-//! [`ParticleBelief`] between the real steps; `examples/anchors` measures returns on published problems, which
-//! docs/planners.md lists. Where not every action is possible everywhere, a model says so
+//! A generator is any of `rand` 0.10, here `rand_pcg`'s. `examples/tiger.rs` goes on to whole episodes, with
+//! a [`ParticleBelief`] between the real steps; `examples/anchors` measures returns on published problems,
+//! which docs/planners.md lists. Where not every action is possible everywhere, a model says so
 //! ([`GenerativeModel::is_legal`]).
 //!
 //! # Key design decision
@@ -50,13 +52,13 @@
 //!
 //! The trade-off: the model must return observations coarse enough for simulations to meet again, since the
 //! tree has no notion of similar observations; branches of an action are searched linearly, fine for dozens
-//! and slow for thousands; and every search starts from an empty tree: a belief is updated by the model, not by the
-//! particles of a subtree as in POMCP.
+//! and slow for thousands; and every search starts from an empty tree: a belief is updated by the model, not
+//! by the particles of a subtree as in POMCP.
 //!
 //! # Determinism
 //!
-//! A search is a function of its settings, model, particles and generator, to the last bit: it does not iterate over
-//! hashes or read a clock, and the logarithm is that of the `libm` crate on every platform.
+//! A search is a function of its settings, model, particles and generator, to the last bit: it does not
+//! iterate over hashes or read a clock, and the logarithm is that of the `libm` crate on every platform.
 //!
 //! # Deviations from the sources
 //!

@@ -15,7 +15,7 @@ pub trait GenerativeModel {
     /// A state of the problem. It is copied once a simulation (with [`Clone::clone_from`]), so keep it small.
     type State: Clone;
 
-    /// What the agent perceives after a step.
+    /// The agent's perception after a step.
     type Observation: Eq;
 
     /// The number of actions, numbered `0..action_count()`. It must not change during a search.
@@ -44,7 +44,8 @@ pub trait GenerativeModel {
     /// The action of the default policy, which is followed from a new leaf on; in `0..action_count()`,
     /// and legal.
     ///
-    /// Uniform among the legal actions unless overridden. A sensible policy is the cheapest way to better plans.
+    /// Uniform among the legal actions unless overridden. A sensible policy is the cheapest way to better
+    /// plans.
     fn rollout_action(&self, state: &Self::State, random: &mut impl Rng) -> usize {
         let legal = || (0..self.action_count()).filter(|&action| self.is_legal(state, action));
         match legal().count() {
@@ -53,12 +54,12 @@ pub trait GenerativeModel {
         }
     }
 
-    /// Whether `action` may be taken in `state`. All may unless overridden; one at least must, unless the problem has
-    /// ended.
+    /// Whether `action` may be taken in `state`. All may unless overridden; one at least must, unless the
+    /// problem has ended.
     ///
-    /// A search never takes an illegal action, and reports no visits of it. It asks once per history, for the first
-    /// state that selects an action there: legality must follow from the actions and observations so far, the same for
-    /// all states that share them. Start states must agree on it too.
+    /// A search never takes an illegal action, and reports no visits of it. It asks once per history, for the
+    /// first state that selects an action there: legality must follow from the actions and observations so
+    /// far, the same for all states that share them. Start states must agree on it too.
     fn is_legal(&self, _state: &Self::State, _action: usize) -> bool {
         true
     }
@@ -81,8 +82,8 @@ pub trait GenerativeModel {
     /// Whether the model is deterministic: the next state is a function of state and action, and nothing is
     /// drawn from the generator.
     ///
-    /// The search then caches the steps of the tree, if it has a single root, and computes each once. Its decisions are
-    /// the same with fewer steps.
+    /// The search then caches the steps of the tree, if it has a single root, and computes each once. Its
+    /// decisions are the same with fewer steps.
     fn is_deterministic(&self) -> bool {
         false
     }

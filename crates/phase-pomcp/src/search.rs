@@ -83,7 +83,8 @@ impl<O: Eq> Pomcp<O> {
                 break;
             }
         }
-        let (depth, steps) = (simulations.depth, simulations.steps);
+        let depth = simulations.depth;
+        let steps = simulations.steps;
         let effort = SearchStatistics { histories: self.tree.history_count(), depth, steps };
         let evidence = self.tree.evidence(HistoryId::ROOT);
         let actions = evidence.map(|(visits, value)| ActionStatistics { visits: visits as usize, value });
@@ -94,7 +95,7 @@ impl<O: Eq> Pomcp<O> {
 /// Number of simulations at which a policy is first compared with that of half as many.
 const FIRST_COMPARISON: usize = 128;
 
-/// How far a search is.
+/// The progress of a search.
 struct Progress {
     /// Simulations that have ended.
     ended: usize,

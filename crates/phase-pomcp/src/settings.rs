@@ -38,10 +38,10 @@ pub struct PomcpSettings {
     /// visited, even if all of them began with it. The chosen action is the one that all simulations would
     /// have chosen; visits and values are those of the simulations that were run.
     pub stop_when_decided: bool,
-    /// A search ends as converged where the policy, the shares of the visits at the root, changed by less than this
-    /// while the number of simulations doubled: total variation, 0 to 1, compared after 128, 256, 512, …
-    /// simulations. With 0, the default, every search goes on. Unlike `stop_when_decided` it can change a decision,
-    /// by about as much as another seed would.
+    /// A search ends as converged where the policy, the shares of the visits at the root, changed by less
+    /// than this while the number of simulations doubled: total variation, 0 to 1, compared after 128, 256,
+    /// 512, … simulations. With 0, the default, every search goes on. Unlike `stop_when_decided` it can
+    /// change a decision, by about as much as another seed would.
     pub convergence: f64,
     /// Whether every action of a history is tried once before any is tried twice (the default). Otherwise an
     /// untried action is scored like the others, with the mean value of the history in place of its own, so

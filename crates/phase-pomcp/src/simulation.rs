@@ -52,8 +52,8 @@ impl<M: GenerativeModel> Simulations<'_, M> {
         }
     }
 
-    /// Selects an action at `history` and takes its step. Continues with the history that it leads to, or breaks with
-    /// the return beyond the path.
+    /// Selects an action at `history` and takes its step. Continues with the history that it leads to, or
+    /// breaks with the return beyond the path.
     fn step(
         &mut self,
         history: HistoryId,
@@ -101,7 +101,8 @@ impl<M: GenerativeModel> Simulations<'_, M> {
         let here = self.known.as_ref().map_or(state, |known| &known[history.index()].0);
         self.weights.clear();
         self.model.prior_weights(here, &mut self.weights);
-        let (weights, action_count) = (self.weights.len(), self.action_count);
+        let weights = self.weights.len();
+        let action_count = self.action_count;
         if weights != action_count {
             return Err(PomcpError::PriorCount { weights, action_count });
         }
@@ -150,8 +151,8 @@ impl<M: GenerativeModel> Simulations<'_, M> {
         if estimate.is_finite() { Ok(estimate) } else { Err(PomcpError::NonFiniteEstimate { estimate }) }
     }
 
-    /// Averages the return from each step of the path on into that step's action, the last step first. `rest` is the
-    /// return beyond the path.
+    /// Averages the return from each step of the path on into that step's action, the last step first. `rest`
+    /// is the return beyond the path.
     fn back_up(&mut self, rest: f64) -> Result<(), PomcpError> {
         let mut value = rest;
         for step in self.path.iter().rev() {

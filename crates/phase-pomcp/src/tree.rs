@@ -96,7 +96,9 @@ impl<O: Eq> Tree<O> {
         is_legal: impl Fn(usize) -> bool,
     ) -> Result<(), PomcpError> {
         let first = self.actions.len();
-        let (mut last, mut sum, mut untried) = (0.0, 0.0_f64, 0);
+        let mut last = 0.0;
+        let mut sum = 0.0_f64;
+        let mut untried = 0;
         for (action, &weight) in weights.iter().enumerate() {
             if !is_legal(action) {
                 self.actions.push(Action::with_prior(ILLEGAL));
@@ -127,8 +129,8 @@ impl<O: Eq> Tree<O> {
     }
 
     /// The next action to try after an expanded history: while there are actions never tried, one of them,
-    /// uniformly sampled, if the settings ask for it; otherwise the one with the maximum PUCT score, of smallest
-    /// index among equals.
+    /// uniformly sampled, if the settings ask for it; otherwise the one with the maximum PUCT score, of
+    /// smallest index among equals.
     pub(crate) fn select(
         &self,
         history: HistoryId,
@@ -209,7 +211,8 @@ impl<O: Eq> Tree<O> {
 
     /// Whether the most visited action at the root remains so whatever the next `left` simulations do.
     pub(crate) fn is_decided(&self, left: usize) -> bool {
-        let (mut most, mut second) = (0, 0);
+        let mut most = 0;
+        let mut second = 0;
         for (visits, _) in self.evidence(HistoryId::ROOT) {
             if visits > most {
                 (most, second) = (visits, most);

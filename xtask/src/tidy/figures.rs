@@ -54,7 +54,7 @@ fn share(count: usize, of: usize) -> f64 {
     count as f64 / of.max(1) as f64
 }
 
-/// What is counted in some files.
+/// Figures of some files.
 #[derive(Default)]
 struct Figures {
     /// Lines of source of each file, sorted.

@@ -16,7 +16,8 @@ pub(super) fn check(workspace: &mut Workspace) {
     let packages = workspace.packages();
     let map = workspace.read(Path::new(MAP)).unwrap_or_default();
     for package in &packages {
-        let (name, manifest) = (&package.name, package.manifest());
+        let name = &package.name;
+        let manifest = package.manifest();
         if !layers().any(|layer| layer == name) {
             workspace.report(&manifest, 1, format!("{name} is missing in xtask/src/tidy/layers.txt"));
         }

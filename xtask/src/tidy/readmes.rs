@@ -25,7 +25,8 @@ fn check_package(workspace: &mut Workspace, package: &Package, root: &Path) {
     if name == PYTHON {
         return;
     }
-    let (manifest, readme) = (package.manifest(), package.folder.join("README.md"));
+    let manifest = package.manifest();
+    let readme = package.folder.join("README.md");
     let Some(settings) = workspace.read(&manifest) else { return };
     let says = |key: &str| settings.lines().any(|line| line.starts_with(&format!("{key} = ")));
     if !says("publish") {

@@ -15,6 +15,7 @@ fn readme_of(name: &str) -> String {
 fn workspace(root: &Path) {
     let readme =
         "# It\n\n## Two\n\n```sh\ncargo xtask gen-dataset\n```\n\n```sh\ncargo test --workspace\n```\n";
+    let bare = ROOT.split_inclusive('\n').filter(|line| !line.starts_with("//! ")).collect();
     let files = [
         ("README.md", readme.to_owned()),
         ("Cargo.toml", "phase-world = { path = \"\", version = \"1\" }\n".to_owned()),
@@ -36,7 +37,7 @@ fn workspace(root: &Path) {
         ("xtask/Cargo.toml", String::new()),
         ("xtask/golden/Cargo.toml", "publish = false\n".to_owned()),
         ("xtask/golden/README.md", "# phase-golden\n\nIt.\n".to_owned()),
-        ("xtask/golden/src/lib.rs", ROOT.split_inclusive('\n').filter(|line| !line.starts_with("//! ")).collect()),
+        ("xtask/golden/src/lib.rs", bare),
         ("data/README.md", readme_of("phase-data")),
         ("data/lib.rs", ROOT.to_owned()),
         ("xtask/src/lib.rs", ROOT.to_owned()),

@@ -2,9 +2,9 @@
 //!
 //! `cargo run --release -p phase-forward --example steps_per_second -- [--json] [EVENTS.json]`
 //!
-//! From states of six events, one of each kind, simulated here, and of the recordings of a file if one is given: eight worlds
-//! begin in each state, and in each of them both agents act at random for ten steps. What is stepped is the same in every
-//! column. Time is that of the processor where the system reports it.
+//! From states of six events, one of each kind, simulated here, and of the recordings of a file if one is
+//! given: eight worlds begin in each state, and in each of them both agents act at random for ten steps. What
+//! is stepped is the same in every column. Time is that of the processor where the system reports it.
 
 mod measure;
 mod starts;

@@ -75,7 +75,8 @@ fn rapier(starts: &[Starts]) -> f64 {
     fastest(|random| {
         let mut steps = 0;
         for starts in starts {
-            // A world is made for each state, which is counted among its ten steps; so fewer states are enough.
+            // A world is made for each state, which is counted among its ten steps; so fewer states are
+            // enough.
             for state in starts.states.iter().step_by(4) {
                 let mut world = World::new(&starts.physics, state);
                 for _ in 0..STEPS {

@@ -46,7 +46,8 @@ impl Agent {
         let motion = BodyMotion::of_agent(&Body::at_rest(position, angle), &shape);
         let (sin, cos) = f64::from(angle).sin_cos();
         let outline = trapezoid(radius).map(|corner| {
-            let ((x, y), origin) = (point(corner), point(position));
+            let (x, y) = point(corner);
+            let origin = point(position);
             (origin.0 + x * cos - y * sin, origin.1 + x * sin + y * cos)
         });
         Self { polygon: Polygon::new(&shape, &motion), shape, motion, outline }
@@ -55,7 +56,8 @@ impl Agent {
     /// The sides, from corner to corner, with their outward unit normals.
     fn sides(&self) -> impl Iterator<Item = (Point, Point, Point)> {
         (0..4).map(|k| {
-            let (from, to) = (self.outline[k], self.outline[(k + 1) % 4]);
+            let from = self.outline[k];
+            let to = self.outline[(k + 1) % 4];
             let along = minus(to, from);
             let length = dot(along, along).sqrt();
             (from, to, (along.1 / length, -along.0 / length))
@@ -147,7 +149,8 @@ proptest! {
 
     #[test]
     fn agent_and_disc((size, place, angle) in agent(), centre in near(4.0), radius in radius()) {
-        let (agent, disc) = (Agent::new(size, place, angle), disc(centre));
+        let agent = Agent::new(size, place, angle);
+        let disc = disc(centre);
         let skins = agent.shape.skin + radius;
         let expected = agent.signed_distance(point(centre)) - f64::from(skins);
         let manifold = agent_disc(&agent.shape, &agent.motion, &disc, skins);
@@ -159,7 +162,8 @@ proptest! {
     #[test]
     fn wall_and_disc(a in near(6.0), b in near(6.0), centre in near(4.0), radius in radius()) {
         prop_assume!(a.distance(b) > 0.1);
-        let (wall, disc) = (Wall::new(a, b), disc(centre));
+        let wall = Wall::new(a, b);
+        let disc = disc(centre);
         let skins = SKIN + radius;
         let expected = f64::from(Segment { a, b }.distance(centre) - skins);
         let current = least_gap(&wall_disc(&wall, &disc, skins), &BodyMotion::AT_REST, &disc, skins);
@@ -169,7 +173,8 @@ proptest! {
 
     #[test]
     fn agents_overlap_by_the_least_separating_axis(a in agent(), b in agent()) {
-        let (first, second) = (Agent::new(a.0, a.1, a.2), Agent::new(b.0, b.1, b.2));
+        let first = Agent::new(a.0, a.1, a.2);
+        let second = Agent::new(b.0, b.1, b.2);
         let separation = separation(&first, &second);
         let current = contact(&first, &second);
         prop_assert!(current.is_none() || separation <= f64::from(2.0 * SKIN) + ROUNDING);
@@ -180,14 +185,16 @@ proptest! {
 
     #[test]
     fn agents_swapped_or_turned_together_touch_alike(a in agent(), b in agent(), turn in -3.0..3.0_f32) {
-        let (first, second) = (Agent::new(a.0, a.1, a.2), Agent::new(b.0, b.1, b.2));
+        let first = Agent::new(a.0, a.1, a.2);
+        let second = Agent::new(b.0, b.1, b.2);
         let separation = separation(&first, &second);
         if !(-SHALLOW..=0.0).contains(&separation) {
             return Ok(());
         }
         let gap = contact(&first, &second);
         let swapped = contact(&second, &first);
-        let about = |place: Vec2| Vec2::new(16.0, 12.0) + Vec2::from_angle(turn).rotate(place - Vec2::new(16.0, 12.0));
+        let centre = Vec2::new(16.0, 12.0);
+        let about = |place: Vec2| centre + Vec2::from_angle(turn).rotate(place - centre);
         let turned = [a, b].map(|(size, place, angle)| Agent::new(size, about(place), angle + turn));
         let turned = contact(&turned[0], &turned[1]);
         for other in [swapped, turned] {
@@ -206,7 +213,8 @@ proptest! {
         let side = height(point(agent.motion.centre)).signum();
         let least = agent.outline.iter().map(|&corner| side * height(corner)).fold(f64::MAX, f64::min);
         let expected = least - f64::from(2.0 * SKIN);
-        let current = least_gap(&wall_agent(&wall, &agent.motion, &agent.polygon), &BodyMotion::AT_REST, &agent.motion, 2.0 * SKIN);
+        let manifold = wall_agent(&wall, &agent.motion, &agent.polygon);
+        let current = least_gap(&manifold, &BodyMotion::AT_REST, &agent.motion, 2.0 * SKIN);
         // At greater depths, the shortest correction may lead through the wall.
         if expected >= -SHALLOW {
             check(current, expected, ROUNDING)?;

@@ -244,7 +244,11 @@ fn arc_tangent(x: f32, y: f32) -> f32 {
 
 proptest! {
     #[test]
-    fn cells_are_seen_as_reckoned_slowly(physics in any_physique(), state in any_state(), agent in 0_usize..2) {
+    fn cells_are_seen_as_reckoned_slowly(
+        physics in any_physique(),
+        state in any_state(),
+        agent in 0_usize..2,
+    ) {
         let visible = field_of_view(&physics, &state, AgentId::ALL[agent]);
         for cell in Cell::all() {
             let sight = look(&physics, &state, agent, cell);

@@ -39,8 +39,8 @@ pub(crate) const SARSOP_11_11: Published = Published {
     rocks: &[[0, 3], [0, 7], [1, 8], [2, 4], [3, 3], [3, 8], [4, 3], [5, 8], [6, 1], [9, 3], [9, 9]],
 };
 
-/// The map of DESPOT.jl (JuliaPOMDP), `init_15_15`: its rows count from the north, here from the south. The sources of
-/// POMCP and DESPOT have no map of this size and sample one, as [`random`] does.
+/// The map of DESPOT.jl (JuliaPOMDP), `init_15_15`: its rows count from the north, here from the south. The
+/// sources of POMCP and DESPOT have no map of this size and sample one, as [`random`] does.
 pub(crate) const DESPOT_JL_15_15: Published = Published {
     side: 15,
     start: [0, 9],
@@ -63,8 +63,8 @@ pub(crate) const DESPOT_JL_15_15: Published = Published {
     ],
 };
 
-/// As many rocks as squares on a side, on different squares, all equally likely; the rover starts in the middle of the
-/// west side (`InitGeneral` of POMCP and DESPOT, `rsgen` of AdaOPS).
+/// As many rocks as squares on a side, on different squares, all equally likely; the rover starts in the
+/// middle of the west side (`InitGeneral` of POMCP and DESPOT, `rsgen` of AdaOPS).
 pub(crate) fn random(side: i8, random: &mut impl Rng) -> Layout {
     let mut rocks = Vec::new();
     while rocks.len() < side as usize {

@@ -25,7 +25,8 @@ const CHECK: usize = 5;
 
 /// The problem on a map.
 ///
-/// As in POMCP's and DESPOT's planners, walking into a wall and sampling where there is no rock are not legal.
+/// As in POMCP's and DESPOT's planners, walking into a wall and sampling where there is no rock are not
+/// legal.
 pub(crate) struct RockSample {
     pub(crate) layout: Layout,
 }
@@ -139,7 +140,8 @@ impl GenerativeModel for RockSample {
         tour::best(&self.layout, rover).0
     }
 
-    /// The tour's next action is much more likely than others; checks are the less likely the surer the rover is.
+    /// The tour's next action is much more likely than others; checks are the less likely the surer the rover
+    /// is.
     fn prior_weights(&self, rover: &Rover, weights: &mut Vec<f64>) {
         let next = match tour::best(&self.layout, rover).1 {
             Step::Move(direction) => direction,
@@ -158,8 +160,8 @@ impl GenerativeModel for RockSample {
     }
 }
 
-/// Prior weights of actions: the tour's next, other movements, sampling, and checking a rock of which nothing is known
-/// from nearby.
+/// Prior weights of actions: the tour's next, other movements, sampling, and checking a rock of which nothing
+/// is known from nearby.
 struct Priors {
     next: f64,
     movement: f64,

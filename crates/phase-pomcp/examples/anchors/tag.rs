@@ -1,5 +1,5 @@
-//! A robot that has to find and tag an opponent who moves away (Pineau, Gordon & Thrun 2003), by the rules of DESPOT's
-//! sources.
+//! A robot that has to find and tag an opponent who moves away (Pineau, Gordon & Thrun 2003), by the rules of
+//! DESPOT's sources.
 
 use crate::episodes::Problem;
 use phase_pomcp::{BeliefModel, GenerativeModel, PomcpSettings, Transition};
@@ -7,9 +7,10 @@ use rand::{Rng, RngExt};
 
 /// The problem: 29 squares, two rows of ten and a block of three by three above them.
 ///
-/// A move costs 1, a tag in vain 10, and tagging the opponent on the robot's square earns 10 and ends the problem. The
-/// opponent sees the robot where it was before its move and moves away from it along each axis with probability 0.4, to
-/// either side with 0.2 where it is on a line with the robot; otherwise it stays, as it does where a wall is.
+/// A move costs 1, a tag in vain 10, and tagging the opponent on the robot's square earns 10 and ends the
+/// problem. The opponent sees the robot where it was before its move and moves away from it along each axis
+/// with probability 0.4, to either side with 0.2 where it is on a line with the robot; otherwise it stays, as
+/// it does where a wall is.
 pub(crate) struct Tag {
     squares: Vec<[i8; 2]>,
 }
@@ -97,7 +98,8 @@ impl GenerativeModel for Tag {
         Transition { observation: (chase.robot, chase.sees), reward, terminal: tagged }
     }
 
-    /// As in POMCP's source: who sees the opponent tags it; otherwise any move that does not lead back or into a wall.
+    /// As in POMCP's source: who sees the opponent tags it; otherwise any move that does not lead back or
+    /// into a wall.
     fn rollout_action(&self, chase: &Chase, random: &mut impl Rng) -> usize {
         if chase.sees {
             return TAG;

@@ -4,8 +4,8 @@ use crate::episodes::Problem;
 use phase_pomcp::{BeliefModel, GenerativeModel, PomcpSettings, Transition};
 use rand::{Rng, RngExt};
 
-/// Listening costs 1 and is correct 85 times in 100; the tiger's door costs 100, the other earns 10, and either restarts
-/// the problem. From an even belief the optimum is 19.37.
+/// Listening costs 1 and is correct 85 times in 100; the tiger's door costs 100, the other earns 10, and
+/// either restarts the problem. From an even belief the optimum is 19.37.
 pub(crate) struct Tiger;
 
 const LISTEN: usize = 0;
@@ -44,8 +44,8 @@ impl GenerativeModel for Tiger {
 impl BeliefModel for Tiger {}
 
 impl Problem for Tiger {
-    /// The tiger's worst return sets the scale of values, about −130 to 20, on which a listening action that pays is
-    /// only a hundredth better than one that does not; a small exploration rate distinguishes them.
+    /// The tiger's worst return sets the scale of values, about −130 to 20, on which a listening action that
+    /// pays is only a hundredth better than one that does not; a small exploration rate distinguishes them.
     const SETTINGS: PomcpSettings = PomcpSettings {
         simulations: 1000,
         rollout_steps: 10,

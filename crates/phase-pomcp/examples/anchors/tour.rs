@@ -12,8 +12,8 @@ pub(crate) enum Step {
     Check(usize),
 }
 
-/// Probability from which a rock is sampled unchecked: checking it on the spot costs a step, which is worth more than
-/// the mistake it prevents.
+/// Probability from which a rock is sampled unchecked: checking it on the spot costs a step, which is worth
+/// more than the mistake it prevents.
 const SURE: f64 = 0.95;
 /// Probability below which a rock is not visited.
 const HOPELESS: f64 = 0.05;
@@ -27,11 +27,12 @@ struct Visit {
     discount: f64,
 }
 
-/// The expected return of the tour that goes from rock to rock, checks each on the spot unless it is sure to be good,
-/// samples it if it is good, and leaves when that is worth more than any visit; and the tour's first step.
+/// The expected return of the tour that goes from rock to rock, checks each on the spot unless it is sure to
+/// be good, samples it if it is good, and leaves when that is worth more than any visit; and the tour's first
+/// step.
 ///
-/// The next rock is the one whose visit earns most in relation to the time it takes: the order that is best for jobs
-/// that do not depend on each other, which rocks do by their distances alone.
+/// The next rock is the one whose visit earns most in relation to the time it takes: the order that is best
+/// for jobs that do not depend on each other, which rocks do by their distances alone.
 pub(crate) fn best(layout: &Layout, rover: &Rover) -> (f64, Step) {
     let mut open = [false; MOST_ROCKS];
     for (rock, open) in open.iter_mut().enumerate().take(layout.rocks.len()) {

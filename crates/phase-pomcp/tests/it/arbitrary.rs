@@ -1,4 +1,5 @@
-//! Problems whose transitions, observations and rewards are arbitrary but fixed, and settings to search them with.
+//! Problems whose transitions, observations and rewards are arbitrary but fixed, and settings to search them
+//! with.
 
 use phase_pomcp::{GenerativeModel, PomcpSettings, Transition};
 use proptest::prelude::*;

@@ -4,7 +4,8 @@ use phase_pomcp::{BeliefError, BeliefModel, BeliefUpdate, GenerativeModel, Parti
 use rand::{Rng, RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 
-/// A hidden number is observed as odd or even, wrongly with some probability; while nothing ends, it may grow by one.
+/// A hidden number is observed as odd or even, wrongly with some probability; while nothing ends, it may grow
+/// by one.
 #[derive(Debug, Clone, Copy)]
 struct Number {
     error: f64,
@@ -53,9 +54,10 @@ fn share(belief: &ParticleBelief<u32>, number: u32) -> f64 {
     particles.iter().filter(|&&particle| particle == number).count() as f64 / particles.len() as f64
 }
 
-/// From 0, the number is 0 or 1 after a step, with probabilities 0.7 and 0.3. Odd is observed with probability 0.2 at 0
-/// and 0.8 at 1: by Bayes' rule the number is 1 with probability 0.24 / (0.14 + 0.24) = 12/19. After another step it
-/// is 0, 1 or 2 with 7/19 · 0.7, 7/19 · 0.3 + 12/19 · 0.7 and 12/19 · 0.3; even is observed with 0.8, 0.2 and 0.8.
+/// From 0, the number is 0 or 1 after a step, with probabilities 0.7 and 0.3. Odd is observed with
+/// probability 0.2 at 0 and 0.8 at 1: by Bayes' rule the number is 1 with probability 0.24 / (0.14 + 0.24) =
+/// 12/19. After another step it is 0, 1 or 2 with 7/19 · 0.7, 7/19 · 0.3 + 12/19 · 0.7 and 12/19 · 0.3; even
+/// is observed with 0.8, 0.2 and 0.8.
 #[test]
 fn updates_follow_bayes_rule() {
     let model = Number { error: 0.2, grows: 0.3, ..SURE };

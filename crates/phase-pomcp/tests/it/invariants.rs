@@ -81,7 +81,8 @@ proptest! {
         let decision = pomcp.search(&problem, &roots, &mut random).unwrap();
 
         prop_assert_eq!(decision.actions.len(), problem.actions);
-        prop_assert_eq!(decision.actions.iter().map(|action| action.visits).sum::<usize>(), settings.simulations);
+        let visits: usize = decision.actions.iter().map(|action| action.visits).sum();
+        prop_assert_eq!(visits, settings.simulations);
         let most = decision.actions.iter().map(|action| action.visits).max();
         prop_assert_eq!(Some(decision.actions[decision.action].visits), most);
         prop_assert!(most > Some(0));

@@ -60,7 +60,8 @@ proptest! {
         for (action, found) in decision.actions.iter().enumerate() {
             // Three hundred simulations are enough for every legal one of four.
             let legal = model.is_legal(&root, action);
-            let as_allowed = if untried_first { (found.visits > 0) == legal } else { found.visits == 0 || legal };
+            let visited = found.visits > 0;
+            let as_allowed = if untried_first { visited == legal } else { !visited || legal };
             prop_assert!(as_allowed, "{}: {:?}", action, found);
         }
         prop_assert_eq!(decision.actions.iter().map(|found| found.visits).sum::<usize>(), 300);

@@ -108,8 +108,8 @@ fn each_action_is_tried_once_before_any_is_compared() {
     }
 }
 
-/// Scored by its prior, an action of no value and little prior is not tried until exploration asks for it: the
-/// first goes to the largest prior, and with equal values visits follow the priors from the first on.
+/// Scored by its prior, an action of no value and little prior is not tried until exploration asks for it:
+/// the first goes to the largest prior, and with equal values visits follow the priors from the first on.
 #[test]
 fn without_first_tries_the_priors_decide_from_the_start() {
     let decide = |pays: Vec<f64>, weights: Vec<f64>, simulations| {
