@@ -2,7 +2,7 @@
 
 use phase_model::{
     Body, BodySet, Entity, PhysicsConfig, State, Vec2,
-    geometry::{Outline, trapezoid},
+    geometry::{FARTHEST_CORNER, Outline, trapezoid},
 };
 use phase_perception::{CellSet, footprint::any_cell};
 
@@ -84,7 +84,7 @@ pub(crate) fn overlap_beyond_tolerance(
 fn farthest(physics: &PhysicsConfig, entity: Entity) -> f32 {
     physics.radius(entity)
         * match entity {
-            Entity::Agent(_) => 1.803,
+            Entity::Agent(_) => FARTHEST_CORNER,
             Entity::Object(_) => 1.0,
         }
 }

@@ -2,6 +2,7 @@
 
 use crate::Track;
 use phase_model::Entity;
+use phase_predicates::threshold::SEEN_MOTION;
 use serde::{Deserialize, Serialize};
 
 /// What an entity still did after a given step.
@@ -18,9 +19,6 @@ pub struct Rest {
     /// Steps in which it moved more than 0.02 u or turned more than 0.02 rad.
     pub moving_steps: usize,
 }
-
-/// Less than this in one step counts as resting (u, rad).
-const MOTION_TOLERANCE: f32 = 0.02;
 
 impl Rest {
     /// What an entity did after step `from`.
@@ -40,7 +38,7 @@ impl Rest {
             rest.travelled += moved;
             rest.turned += turned;
             rest.displacement = rest.displacement.max(after.position.distance(first.position(entity)));
-            rest.moving_steps += usize::from(moved > MOTION_TOLERANCE || turned > MOTION_TOLERANCE);
+            rest.moving_steps += usize::from(moved > SEEN_MOTION || turned > SEEN_MOTION);
         }
         rest
     }
@@ -65,6 +63,6 @@ pub fn is_still(track: &Track, step: usize) -> bool {
             Entity::Agent(_) => (angle(step) - angle(step - 1)).abs(),
             Entity::Object(_) => 0.0,
         };
-        moved <= MOTION_TOLERANCE && turned <= MOTION_TOLERANCE
+        moved <= SEEN_MOTION && turned <= SEEN_MOTION
     })
 }

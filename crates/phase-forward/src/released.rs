@@ -1,16 +1,14 @@
 //! Collision filtering of pairs that are held or were released recently.
 
 use crate::{
-    constants::H,
     key::{PAIRS, bit, pair_key, pair_of},
     world::World,
 };
-use phase_model::{AGENT_COUNT, AgentId, Entity, State, Vec2};
+use phase_model::{
+    AGENT_COUNT, AgentId, Entity, State, Vec2,
+    physics::{RELEASE_CLEARANCE, release_distance},
+};
 
-/// Distance from the point of release beyond which an object is clear of its holder (u).
-const CLEARANCE: f32 = 0.1;
-/// Additional distance, in substeps at the body's current speed.
-const CLEARANCE_SUBSTEPS: f32 = 4.0;
 /// Speed of approach above which an object was not just released (u/s).
 const APPROACH: f32 = 1.0;
 
@@ -36,14 +34,16 @@ impl World<'_> {
                 let held = &self.motions[object];
                 let reach = self.model.shapes[agent].radius + self.model.shapes[object].radius;
                 let between = held.centre - motion.place(Vec2::new(0.0, self.model.shapes[agent].origin));
-                if between.length_squared() > (reach + CLEARANCE) * (reach + CLEARANCE)
+                if between.length_squared() > (reach + RELEASE_CLEARANCE) * (reach + RELEASE_CLEARANCE)
                     || state.contacts.touching(Entity::Agent(holder), Entity::ALL[object])
                 {
                     continue;
                 }
                 let place = motion.right * (reach * between.dot(motion.right).signum());
                 let approach = (motion.velocity - held.velocity).dot(between.normalize_or_zero());
-                if place.distance_squared(between) < CLEARANCE * CLEARANCE && approach < APPROACH {
+                if place.distance_squared(between) < RELEASE_CLEARANCE * RELEASE_CLEARANCE
+                    && approach < APPROACH
+                {
                     self.released |= bit(pair_key(pair_of(agent, object)));
                 }
             }
@@ -52,7 +52,7 @@ impl World<'_> {
             for body in 0..self.model.count {
                 let motion = &self.motions[body];
                 self.let_go_at[body] = motion.centre;
-                self.release_distance[body] = CLEARANCE + CLEARANCE_SUBSTEPS * H * motion.velocity.length();
+                self.release_distance[body] = release_distance(motion.velocity.length());
             }
         }
     }

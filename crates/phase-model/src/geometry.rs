@@ -76,6 +76,9 @@ pub const fn trapezoid(radius: f32) -> [Vec2; 4] {
     ]
 }
 
+/// Distance of an agent's rear corners, its farthest points, from its origin: √(1.5² + 1²), rounded up (R).
+pub const FARTHEST_CORNER: f32 = 1.803;
+
 /// The outline of one entity in the world.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub enum Outline {

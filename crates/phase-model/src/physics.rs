@@ -1,6 +1,6 @@
 //! The parameters of a scene's physics: walls, radii and forces, but no goals or attitudes.
 
-use crate::{Entity, MAX_OBJECTS, ObjectId, Segment, entity::AGENT_COUNT};
+use crate::{Entity, MAX_OBJECTS, ObjectId, Segment, arena::SUBSTEP_SECONDS, entity::AGENT_COUNT};
 use serde::{Deserialize, Serialize};
 
 /// Size level of an entity; the levels are not in order of size.
@@ -108,6 +108,16 @@ pub const GROUND_FRICTION: f32 = 100.0;
 pub const GRAB_REACH: f32 = 0.5;
 /// Overlap that a released object and its holder may keep, skins included, until one of them has moved away (u).
 pub const RELEASED_OVERLAP: f32 = 0.1;
+/// Distance from its place at the release beyond which a body at rest is clear of its former partner (u).
+pub const RELEASE_CLEARANCE: f32 = 0.1;
+
+/// Distance from its place at the release beyond which a body is clear of its former partner (u):
+/// [`RELEASE_CLEARANCE`], and what it covers in four substeps at its speed then (u/s).
+#[must_use]
+pub fn release_distance(speed: f32) -> f32 {
+    RELEASE_CLEARANCE + 4.0 * SUBSTEP_SECONDS * speed
+}
+
 /// Mass per area of every body (kg/u²).
 pub const DENSITY: f32 = 1.0;
 

@@ -5,7 +5,8 @@ use crate::{
     footprint::any_cell,
 };
 use phase_model::{
-    AgentId, Body, Entity, MAX_ENTITIES, PhysicsConfig, Segment, State, Vec2, geometry, geometry::Outline,
+    AgentId, Body, Entity, MAX_ENTITIES, PhysicsConfig, Segment, State, Vec2,
+    geometry::{self, FARTHEST_CORNER, Outline},
 };
 
 /// Tangent of the cone's half angle of 54.69°: 0.8 across for 17/30 ahead.
@@ -75,7 +76,7 @@ impl<'a> Viewpoint<'a> {
         let body = self.state.body(entity);
         let reach = self.physics.radius(entity)
             * match entity {
-                Entity::Agent(_) => LONGEST_CORNER,
+                Entity::Agent(_) => FARTHEST_CORNER,
                 Entity::Object(_) => 1.0,
             };
         if self.out_of_cone(body.position - self.apex, reach + HALF_DIAGONAL) {
@@ -108,8 +109,6 @@ impl<'a> Viewpoint<'a> {
 const TAN_SQUARED: f32 = TAN_HALF_ANGLE * TAN_HALF_ANGLE;
 /// Half the diagonal of a cell, rounded up (u).
 const HALF_DIAGONAL: f32 = 0.7072;
-/// Distance of an agent's rear corners from its origin, √(1.5² + 1²), rounded up (R).
-const LONGEST_CORNER: f32 = 1.803;
 
 /// Whether a direction lies strictly inside the cone around a unit vector.
 fn in_cone(ray: Vec2, axis: Vec2) -> bool {

@@ -9,13 +9,11 @@ use phase_model::{
     arena::SUBSTEPS,
     random::{self, Pcg64Mcg, Purpose},
 };
+use phase_predicates::threshold::SEEN_MOTION;
 use thiserror::Error;
 
 /// Speed below which a body counts as being at rest (u/s).
 const REST_SPEED: f32 = 0.05;
-
-/// Displacement or rotation in a step below which a body is not seen to move (u; rad).
-const MOTION_TOLERANCE: f32 = 0.02;
 
 /// The reason why a scene could not be simulated: the scene or the settings are invalid, or a search failed.
 #[derive(Clone, PartialEq, Debug, Error)]
@@ -248,8 +246,8 @@ fn is_unmoved(physics: &PhysicsConfig, before: &State, after: &State) -> bool {
     physics.entities().all(|entity| {
         let before = before.body(entity);
         let after = after.body(entity);
-        before.position.distance(after.position) < MOTION_TOLERANCE
-            && (before.angle - after.angle).abs() < MOTION_TOLERANCE
+        before.position.distance(after.position) < SEEN_MOTION
+            && (before.angle - after.angle).abs() < SEEN_MOTION
     })
 }
 

@@ -1,7 +1,10 @@
 //! Contact rules: the engine's hooks, and the contacts that are reported.
 
 use crate::dynamic_body::DynamicBody;
-use phase_model::{Entity, MAX_ENTITIES, Vec2, arena::SUBSTEP_SECONDS, physics::RELEASED_OVERLAP};
+use phase_model::{
+    Entity, MAX_ENTITIES, Vec2,
+    physics::{RELEASED_OVERLAP, release_distance},
+};
 use rapier2d::{
     parry::{
         bounding_volume::{Aabb, BoundingVolume},
@@ -14,11 +17,6 @@ use rapier2d::{
 const SLOP: f32 = 0.005;
 /// Maximum distance between two surfaces that counts as touching (u); more than all skins together.
 const TOUCHING_DISTANCE: f32 = 0.02;
-
-/// Distance from the point of release beyond which a body at rest is clear of its former partner (u).
-const CLEARANCE: f32 = 0.1;
-/// Additional distance, in substeps at the body's current speed.
-const CLEARANCE_SUBSTEPS: f32 = 4.0;
 
 /// The user data of an entity's collider; walls have 0.
 #[must_use]
@@ -46,7 +44,7 @@ impl ContactRules {
     pub(crate) fn release(&mut self, engine: &PhysicsWorld, a: &DynamicBody, b: &DynamicBody) {
         for (one, other) in [(a, b), (b, a)] {
             let body = &engine.bodies[one.body];
-            let room = CLEARANCE + CLEARANCE_SUBSTEPS * SUBSTEP_SECONDS * body.linvel().length();
+            let room = release_distance(body.linvel().length());
             let place = Aabb::from_half_extents(body.center_of_mass(), Vec2::splat(room));
             self.released[one.entity.index()][other.entity.index()] = Some(place);
         }

@@ -2,7 +2,7 @@
 
 use super::{Kind, Scenes, Substep};
 use crate::scenes::{Doing, Overlap, Start, deepest_overlap};
-use phase_model::{Entity, PhysicsConfig, State, physics::RELEASED_OVERLAP};
+use phase_model::{Entity, PhysicsConfig, State, geometry::FARTHEST_CORNER, physics::RELEASED_OVERLAP};
 
 /// Overlaps that are not looked at (u).
 const LEAST: f32 = 0.02;
@@ -72,11 +72,10 @@ impl Overlaps {
 /// By how much an overlap exceeds the way of both bodies in a substep and [`RELEASED_OVERLAP`] (u).
 #[must_use]
 pub fn overlap_beyond(physics: &PhysicsConfig, before: &State, after: &State, overlap: &Overlap) -> f32 {
-    /// The farthest corner of an agent, in radii: √(1.5² + 1²).
-    const CORNER: f32 = 1.803;
     let way = |entity: Entity| {
         let [was, is] = [before, after].map(|state| state.body(entity));
-        was.position.distance(is.position) + CORNER * physics.radius(entity) * (is.angle - was.angle).abs()
+        was.position.distance(is.position)
+            + FARTHEST_CORNER * physics.radius(entity) * (is.angle - was.angle).abs()
     };
     let way: f32 = overlap.pair.into_iter().map(way).sum();
     overlap.depth - way.max(RELEASED_OVERLAP)
