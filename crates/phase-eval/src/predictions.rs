@@ -16,7 +16,8 @@ use std::collections::BTreeMap;
 pub const MAX_FUTURES: usize = 200;
 
 /// Reads answers to Task 1 by the ids of their events:
-/// `{"events": [{"id", "goals": [[{"goal", "p"}…], […]], "relation": {"friendly", "adversarial", "neutral"}, "roles": {"helps": [p, p], "hinders": [p, p]}}…]}`,
+/// `{"events": [{"id", "goals": [[{"goal", "p"}…], […]],`
+/// `"relation": {"friendly", "adversarial", "neutral"}, "roles": {"helps": [p, p], "hinders": [p, p]}}…]}`,
 /// where `roles`, the probabilities that either agent helps or hinders the other, may be absent, and so may
 /// `reported`, the shares of people who would report each relation, of the form of `relation`. Other members
 /// are ignored, so results of PHASE are valid predictions too.

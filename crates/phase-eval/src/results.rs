@@ -39,14 +39,16 @@ pub fn goals(
                 "human_accuracy": human.map(|estimate| estimate.interval()),
             },
         },
-        "kinds": to_value(&summary.kinds)?, "layouts": to_value(&summary.layouts)?, "watched": to_value(&summary.watched)?,
+        "kinds": to_value(&summary.kinds)?, "layouts": to_value(&summary.layouts)?,
+        "watched": to_value(&summary.watched)?,
         "sets": to_value(&summary.sets)?,
         "roles": to_value(&summary.roles)?, "role_kinds": to_value(&summary.role_kinds)?,
         "agreement": to_value(&summary.agreement)?,
         "relation_agreement": to_value(&summary.relation_agreement)?,
         "confusion": { "order": to_value(goals::RELATIONS)?, "right_by_said": summary.confusion },
         "calibration": {
-            "goal": to_value(&summary.goal_calibration)?, "relation": to_value(&summary.relation_calibration)?,
+            "goal": to_value(&summary.goal_calibration)?,
+            "relation": to_value(&summary.relation_calibration)?,
         },
         "events": to_value(events)?,
     }))
@@ -84,7 +86,8 @@ pub fn trajectories(
     Ok(json!({
         "format": TRAJECTORIES_FORMAT, "run": run, "method": run["method"], "seed": run["seed"],
         "n_events": summary.all.n, "ade": ade, "fde": fde,
-        "ade_entities": ade_entities, "fde_entities": fde_entities, "samples": to_value(&summary.all.samples)?,
+        "ade_entities": ade_entities, "fde_entities": fde_entities,
+        "samples": to_value(&summary.all.samples)?,
         "intervals": {
             "ade": ade_interval, "fde": fde_interval,
             "ade_entities": ade_entities_interval, "fde_entities": fde_entities_interval,

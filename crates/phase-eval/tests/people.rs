@@ -129,7 +129,10 @@ fn the_likelier_of_two_helpers_is_the_one_named() {
 fn files_of_ratings() {
     let file = json!({
         "format": "phase-ratings/1",
-        "ratings": { "a": {"friendly": 3, "neutral": 0, "adversarial": 1}, "b": {"friendly": 0, "neutral": 1, "adversarial": 0} },
+        "ratings": {
+            "a": {"friendly": 3, "neutral": 0, "adversarial": 1},
+            "b": {"friendly": 0, "neutral": 1, "adversarial": 0}
+        },
     });
     let read = ratings(&file).expect("ratings");
     assert_eq!(read["a"].counts(), [3, 1, 0]);
@@ -151,7 +154,8 @@ fn files_of_ratings() {
     }
 }
 
-/// An evaluation of the events that a model of reports was fitted to is labelled, and shows the figures held out; others stay.
+/// An evaluation of the events that a model of reports was fitted to is labelled, and shows the figures held
+/// out; others stay.
 #[test]
 fn agreement_with_known_ratings_is_labelled_in_sample() {
     let reported = |said: [f64; 3], predicted: [f64; 3], counts| {

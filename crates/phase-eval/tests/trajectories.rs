@@ -198,14 +198,16 @@ proptest! {
         prop_assert_eq!(&read["x"].forecast, &paths);
         let truth = vec![path(0.0, 20); paths.len()];
         for errors in Errors::of(&paths, &truth).expect("errors") {
-            prop_assert!(errors.by_step.iter().chain([&errors.ade, &errors.fde]).all(|error| error.is_finite()));
+            let all = errors.by_step.iter().chain([&errors.ade, &errors.fde]);
+            prop_assert!(all.into_iter().all(|error| error.is_finite()));
         }
     }
 
     /// Any invalid forecast is rejected in a sentence that names the event.
     #[test]
     fn rubbish_is_no_forecast(depth in 0..5_usize, leaf in prop_oneof![
-        Just(Value::Null), Just(json!(true)), Just(json!("1")), Just(json!({})), any::<f64>().prop_map(|x| json!(x)),
+        Just(Value::Null), Just(json!(true)), Just(json!("1")), Just(json!({})),
+        any::<f64>().prop_map(|x| json!(x)),
     ]) {
         let forecast = (0..depth).fold(leaf, |inner, _| json!([inner]));
         let told = predictions::forecasts(&json!({ "events": [{ "id": "a", "forecast": forecast }] }));

@@ -7,7 +7,8 @@ create_exception!(
     phase_events,
     PhaseError,
     PyValueError,
-    "Something given to PHASE is invalid, or PHASE failed. Its text is the sentence that the command line prints."
+    "Something given to PHASE is invalid, or PHASE failed. Its text is the sentence that the command line \
+     prints."
 );
 
 /// An exception with the text of an error.

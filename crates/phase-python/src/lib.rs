@@ -4,10 +4,10 @@
 //! that Python and files have one vocabulary. What users see, with types, units and errors, is documented in
 //! the package, `python/phase_events`.
 //!
-//! Key design decision: an agent's observation is one vector of fixed length (`observation`). Learners,
-//! vector environments and PHASE's own minds read the same vector, and nothing is lost in it: two minds that
-//! play in an environment make the event that [`phase_sim::simulate`] makes. The trade-off is a longer vector
-//! than most learners need.
+//! Key design decision: an agent's observation is one vector of fixed length ([`phase_sim::vector`]).
+//! Learners, vector environments and PHASE's own minds read the same vector, and nothing is lost in it: two
+//! minds that play in an environment make the event that [`phase_sim::simulate`] makes. The trade-off is a
+//! longer vector than most learners need.
 //!
 //! The interpreter's lock is released in every call that computes.
 
@@ -20,12 +20,12 @@ mod drawing;
 mod error;
 mod event;
 mod mind;
-mod observation;
 mod observer;
 mod perceive;
 mod scene;
 mod worlds;
 
+use phase_sim::vector;
 use pyo3::prelude::*;
 
 /// The native part of `phase_events`.
@@ -33,8 +33,8 @@ use pyo3::prelude::*;
 fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     let py = module.py();
     module.add("PhaseError", py.get_type::<error::PhaseError>())?;
-    module.add("OBSERVATION_SIZE", observation::SIZE)?;
-    module.add("OBSERVATION_PARTS", observation::parts())?;
+    module.add("OBSERVATION_SIZE", vector::SIZE)?;
+    module.add("OBSERVATION_PARTS", observation_parts())?;
     module.add("ACTIONS", scene::action_names())?;
     module.add_class::<scene::Scene>()?;
     module.add_class::<worlds::Worlds>()?;
@@ -50,4 +50,9 @@ fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(perceive::methods, module)?)?;
     module.add_function(wrap_pyfunction!(command::run, module)?)?;
     Ok(())
+}
+
+/// Name and shape of each part of an observation, in order.
+fn observation_parts() -> Vec<(&'static str, Vec<usize>)> {
+    vector::PARTS.iter().map(|part| (part.name, part.shape.to_vec())).collect()
 }

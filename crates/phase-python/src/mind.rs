@@ -3,7 +3,6 @@
 use crate::{
     arrays::{BODY_COLUMNS, check_shape, row_of},
     error::raise,
-    observation::{self, SIZE},
     scene::{Scene, action_of, agent_of},
 };
 use numpy::{PyArray1, PyArray3, PyReadonlyArray1, PyReadonlyArray2, PyUntypedArrayMethods};
@@ -14,6 +13,7 @@ use phase_model::{
     random::{self, Pcg64Mcg, Purpose},
 };
 use phase_perception::Observation;
+use phase_sim::vector::{self, SIZE};
 use pyo3::prelude::*;
 use rayon::prelude::*;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -67,8 +67,10 @@ impl Mind {
         let agent = agent_of(agent)?;
         let parameters = read_parameters(parameters)?;
         if parameters.kind() != MindKind::Phase {
-            let rule = "a mind that decides from observations is of the kind phase: published minds have senses of their own";
-            return Err(raise(rule));
+            return Err(raise(
+                "a mind that decides from observations is of the kind phase: published minds have senses of \
+                 their own",
+            ));
         }
         let scene = &scene.scene;
         let entities = scene.physics().entities().count();
@@ -94,7 +96,7 @@ impl Mind {
         action: Option<i64>,
     ) -> PyResult<usize> {
         let action = action.map(action_of).transpose()?;
-        let observation = observation::read(self.agent, observation.as_slice()?)?;
+        let observation = vector::read(self.agent, observation.as_slice()?).map_err(raise)?;
         let decided = py.detach(|| {
             self.state.lock().unwrap_or_else(PoisonError::into_inner).decide(&observation, action)
         });
@@ -137,7 +139,7 @@ pub(crate) fn decide_all<'py>(
     let numbers = observations.as_slice()?;
     let rows = minds.iter().zip(numbers.chunks_exact(SIZE));
     let tasks: Vec<(Arc<Mutex<MindState>>, Observation)> = rows
-        .map(|(mind, row)| Ok((Arc::clone(&mind.state), observation::read(mind.agent, row)?)))
+        .map(|(mind, row)| Ok((Arc::clone(&mind.state), vector::read(mind.agent, row).map_err(raise)?)))
         .collect::<PyResult<_>>()?;
     let decided: Result<Vec<i64>, String> = py.detach(|| {
         let one = |(state, observation): &(Arc<Mutex<MindState>>, Observation)| {

@@ -3,96 +3,29 @@
 use crate::{
     arrays::{BODY_COLUMNS, check_shape, row_of},
     error::raise,
-    observation::{Encoder, SIZE},
     scene::{Scene, action_of},
 };
 use numpy::{
     PyArray1, PyArray2, PyArray3, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2, PyReadwriteArray2,
     PyReadwriteArray3, PyUntypedArrayMethods,
 };
-use phase_model::{
-    AGENT_COUNT, Action, AgentId, Attitude, BodySet, Goal, MAX_ENTITIES, PhysicsConfig, State,
-    arena::SUBSTEPS, reward::social_reward,
-};
-use phase_perception::{Cell, CellSet, Observation, observe};
-use phase_predicates::achieved;
-use phase_sim::{Engine, Environment};
+use phase_model::{AGENT_COUNT, Action, AgentId, MAX_ENTITIES, PhysicsConfig, State};
+use phase_sim::{Engine, Episode, View, vector::SIZE};
 use pyo3::prelude::*;
 use rayon::prelude::*;
 
 /// Several worlds, each with a scene of its own.
 #[pyclass(module = "phase_events._native")]
 pub(crate) struct Worlds {
-    lanes: Vec<Lane>,
+    episodes: Vec<Episode>,
     engine: Engine,
-    /// Whether agents observe everything.
-    omniscient: bool,
+    view: View,
     pool: Option<rayon::ThreadPool>,
-}
-
-/// One world.
-struct Lane {
-    environment: Environment,
-    physics: PhysicsConfig,
-    goals: [Goal; AGENT_COUNT],
-    attitudes: [Attitude; AGENT_COUNT],
-    encoder: Encoder,
-    /// The states after each substep of the last step; the initial state before the first one.
-    substeps: [State; SUBSTEPS],
-}
-
-impl Lane {
-    fn new(scene: &Scene, engine: Engine) -> Self {
-        let scene = &scene.scene;
-        let physics = scene.physics();
-        let state = scene.initial_state();
-        Self {
-            environment: Environment::new(engine, &physics, &state),
-            encoder: Encoder::new(scene),
-            goals: scene.goals(),
-            attitudes: scene.attitudes(),
-            substeps: [state; SUBSTEPS],
-            physics,
-        }
-    }
-
-    const fn state(&self) -> &State {
-        &self.substeps[SUBSTEPS - 1]
-    }
-
-    fn observe(&self, omniscient: bool, out: &mut [f32]) {
-        for (agent, out) in AgentId::ALL.into_iter().zip(out.chunks_exact_mut(SIZE)) {
-            let observation = if omniscient {
-                let all: BodySet = self.physics.entities().collect();
-                let mut cells = CellSet::EMPTY;
-                Cell::all().for_each(|cell| cells.insert(cell));
-                Observation::of(&self.physics, self.state(), agent, cells, all)
-            } else {
-                observe(&self.physics, self.state(), agent)
-            };
-            self.encoder.write(&observation, out);
-        }
-    }
-
-    /// Whether each agent's goal holds.
-    fn achieved(&self) -> [bool; AGENT_COUNT] {
-        self.goals.map(|goal| achieved(&self.physics, self.state(), goal))
-    }
-
-    /// Equation 1 for each agent.
-    fn rewards(&self, achieved: [bool; AGENT_COUNT], actions: [Action; AGENT_COUNT]) -> [f64; AGENT_COUNT] {
-        let satisfied = achieved.map(|achieved| f64::from(u8::from(achieved)));
-        AgentId::ALL.map(|agent| {
-            let own = satisfied[usize::from(agent)];
-            let other = satisfied[usize::from(agent.other())];
-            social_reward(self.attitudes[agent], own, other, actions[usize::from(agent)])
-        })
-    }
 }
 
 /// The parts of the output arrays that a step writes for one world.
 struct Row<'a> {
-    lane: &'a mut Lane,
+    episode: &'a mut Episode,
     actions: [Action; AGENT_COUNT],
     observations: &'a mut [f32],
     rewards: &'a mut [f64],
@@ -117,18 +50,19 @@ impl Worlds {
                 py.detach(|| rayon::ThreadPoolBuilder::new().num_threads(threads).build().map_err(raise))?,
             ),
         };
-        let lanes = scenes.iter().map(|scene| Lane::new(scene, engine)).collect();
-        Ok(Self { lanes, engine, omniscient, pool })
+        let episodes = scenes.iter().map(|scene| Episode::new(&scene.scene, engine)).collect();
+        let view = if omniscient { View::Everything } else { View::Own };
+        Ok(Self { episodes, engine, view, pool })
     }
 
     fn __len__(&self) -> usize {
-        self.lanes.len()
+        self.episodes.len()
     }
 
     /// Puts a scene into one of the worlds, at its start.
     fn reset(&mut self, world: i64, scene: PyRef<'_, Scene>) -> PyResult<()> {
         let index = self.index(world)?;
-        self.lanes[index] = Lane::new(&scene, self.engine);
+        self.episodes[index] = Episode::new(&scene.scene, self.engine);
         Ok(())
     }
 
@@ -143,7 +77,7 @@ impl Worlds {
         worlds: Option<PyReadonlyArray1<'_, i64>>,
     ) -> PyResult<()> {
         let chosen: Vec<usize> = match worlds {
-            None => (0..self.lanes.len()).collect(),
+            None => (0..self.episodes.len()).collect(),
             Some(worlds) => {
                 worlds.as_array().iter().map(|&world| self.index(world)).collect::<PyResult<_>>()?
             }
@@ -153,10 +87,10 @@ impl Worlds {
         let achieved = achieved.as_slice_mut()?;
         py.detach(|| {
             for index in chosen {
-                let lane = &self.lanes[index];
+                let episode = &self.episodes[index];
                 let row = AGENT_COUNT * SIZE;
-                lane.observe(self.omniscient, &mut observations[index * row..(index + 1) * row]);
-                achieved[index * AGENT_COUNT..(index + 1) * AGENT_COUNT].copy_from_slice(&lane.achieved());
+                write_both(episode, self.view, &mut observations[index * row..(index + 1) * row]);
+                achieved[index * AGENT_COUNT..(index + 1) * AGENT_COUNT].copy_from_slice(&episode.achieved());
             }
         });
         Ok(())
@@ -172,7 +106,7 @@ impl Worlds {
         mut rewards: PyReadwriteArray2<'_, f64>,
         mut achieved: PyReadwriteArray2<'_, bool>,
     ) -> PyResult<()> {
-        let count = self.lanes.len();
+        let count = self.episodes.len();
         check_shape("actions", actions.shape(), &[count, AGENT_COUNT])?;
         check_shape("rewards", rewards.shape(), &[count, AGENT_COUNT])?;
         self.check_shapes(&observations, &achieved)?;
@@ -183,21 +117,21 @@ impl Worlds {
         let observations = observations.as_slice_mut()?;
         let rewards = rewards.as_slice_mut()?;
         let achieved = achieved.as_slice_mut()?;
-        let Self { lanes, omniscient, pool, .. } = self;
-        let omniscient = *omniscient;
+        let Self { episodes, view, pool, .. } = self;
+        let view = *view;
         let one = |row: Row<'_>| {
-            row.lane.substeps = row.lane.environment.step(row.actions);
-            row.lane.observe(omniscient, row.observations);
-            let achieved = row.lane.achieved();
-            row.rewards.copy_from_slice(&row.lane.rewards(achieved, row.actions));
-            row.achieved.copy_from_slice(&achieved);
+            row.episode.step(row.actions);
+            write_both(row.episode, view, row.observations);
+            row.rewards.copy_from_slice(&row.episode.rewards(row.actions));
+            row.achieved.copy_from_slice(&row.episode.achieved());
         };
         py.detach(|| {
-            let rows = lanes.iter_mut().zip(actions).zip(observations.chunks_exact_mut(AGENT_COUNT * SIZE));
+            let observations = observations.chunks_exact_mut(AGENT_COUNT * SIZE);
+            let rows = episodes.iter_mut().zip(actions).zip(observations);
             let rows =
                 rows.zip(rewards.chunks_exact_mut(AGENT_COUNT)).zip(achieved.chunks_exact_mut(AGENT_COUNT));
-            let rows = rows.map(|((((lane, actions), observations), rewards), achieved)| Row {
-                lane,
+            let rows = rows.map(|((((episode, actions), observations), rewards), achieved)| Row {
+                episode,
                 actions,
                 observations,
                 rewards,
@@ -216,19 +150,22 @@ impl Worlds {
 
     /// The bodies of a world: (entities, 6), columns x, y, angle, vx, vy, angular velocity.
     fn bodies<'py>(&self, py: Python<'py>, world: i64) -> PyResult<Bound<'py, PyArray2<f32>>> {
-        let lane = self.lane(world)?;
-        let rows: Vec<Vec<f32>> =
-            lane.physics.entities().map(|entity| row_of(lane.state().body(entity)).to_vec()).collect();
+        let episode = self.episode(world)?;
+        let rows: Vec<Vec<f32>> = episode
+            .physics()
+            .entities()
+            .map(|entity| row_of(episode.state().body(entity)).to_vec())
+            .collect();
         PyArray2::from_vec2(py, &rows).map_err(raise)
     }
 
     /// The bodies of all worlds: (N, 4, 6), columns as of `bodies`; 0 for absent objects.
     fn states<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray3<f32>> {
-        let states = PyArray3::zeros(py, [self.lanes.len(), MAX_ENTITIES, BODY_COLUMNS], false);
+        let states = PyArray3::zeros(py, [self.episodes.len(), MAX_ENTITIES, BODY_COLUMNS], false);
         let mut rows = states.readwrite();
-        for (lane, mut rows) in self.lanes.iter().zip(rows.as_array_mut().outer_iter_mut()) {
-            for (entity, mut row) in lane.physics.entities().zip(rows.outer_iter_mut()) {
-                for (to, from) in row.iter_mut().zip(row_of(lane.state().body(entity))) {
+        for (episode, mut rows) in self.episodes.iter().zip(rows.as_array_mut().outer_iter_mut()) {
+            for (entity, mut row) in episode.physics().entities().zip(rows.outer_iter_mut()) {
+                for (to, from) in row.iter_mut().zip(row_of(episode.state().body(entity))) {
                     *to = from;
                 }
             }
@@ -239,17 +176,17 @@ impl Worlds {
 
     /// The bodies after each substep of the last step: (5, entities, 6).
     fn substeps<'py>(&self, py: Python<'py>, world: i64) -> PyResult<Bound<'py, PyArray3<f32>>> {
-        let lane = self.lane(world)?;
+        let episode = self.episode(world)?;
         let rows = |state: &State| {
-            lane.physics.entities().map(|entity| row_of(state.body(entity)).to_vec()).collect()
+            episode.physics().entities().map(|entity| row_of(state.body(entity)).to_vec()).collect()
         };
-        let states: Vec<Vec<Vec<f32>>> = lane.substeps.iter().map(rows).collect();
+        let states: Vec<Vec<Vec<f32>>> = episode.substeps().iter().map(rows).collect();
         PyArray3::from_vec3(py, &states).map_err(raise)
     }
 
     /// The object that each agent of a world holds: its number, or −1.
     fn held<'py>(&self, py: Python<'py>, world: i64) -> PyResult<Bound<'py, PyArray1<i64>>> {
-        let state = self.lane(world)?.state();
+        let state = self.episode(world)?.state();
         let held =
             AgentId::ALL.map(|agent| state.held_object(agent).map_or(-1, |object| object.number().into()));
         Ok(PyArray1::from_slice(py, &held))
@@ -259,13 +196,13 @@ impl Worlds {
 impl Worlds {
     /// The number of a world.
     fn index(&self, world: i64) -> PyResult<usize> {
-        let count = self.lanes.len();
+        let count = self.episodes.len();
         let index = usize::try_from(world).ok().filter(|&index| index < count);
         index.ok_or_else(|| raise(format!("there are {count} worlds, and no world {world}")))
     }
 
-    fn lane(&self, world: i64) -> PyResult<&Lane> {
-        Ok(&self.lanes[self.index(world)?])
+    fn episode(&self, world: i64) -> PyResult<&Episode> {
+        Ok(&self.episodes[self.index(world)?])
     }
 
     fn check_shapes(
@@ -273,14 +210,21 @@ impl Worlds {
         observations: &PyReadwriteArray3<'_, f32>,
         achieved: &PyReadwriteArray2<'_, bool>,
     ) -> PyResult<()> {
-        let count = self.lanes.len();
+        let count = self.episodes.len();
         check_shape("observations", observations.shape(), &[count, AGENT_COUNT, SIZE])?;
         check_shape("achieved", achieved.shape(), &[count, AGENT_COUNT])
     }
 
     /// The physics and the state of a world.
     pub(crate) fn view(&self, world: i64) -> PyResult<(&PhysicsConfig, &State)> {
-        self.lane(world).map(|lane| (&lane.physics, lane.state()))
+        self.episode(world).map(|episode| (episode.physics(), episode.state()))
+    }
+}
+
+/// Writes the observations of both agents of a world.
+fn write_both(episode: &Episode, view: View, out: &mut [f32]) {
+    for (agent, out) in AgentId::ALL.into_iter().zip(out.chunks_exact_mut(SIZE)) {
+        episode.write_observation(agent, view, out);
     }
 }
 

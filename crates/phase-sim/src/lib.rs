@@ -43,12 +43,15 @@
 
 mod beliefs;
 mod environment;
+mod episode;
 mod replay;
 mod settings;
 mod simulation;
+pub mod vector;
 
 pub use beliefs::{BeliefSnapshot, beliefs};
 pub use environment::Environment;
+pub use episode::{Episode, View};
 pub use replay::replay;
 pub use settings::{Engine, SimulationSettings};
 pub use simulation::{Given, Simulation, SimulationError, simulate, simulate_with};

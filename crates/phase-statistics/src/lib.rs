@@ -6,7 +6,8 @@
 //! - [`wilson_interval`] for a proportion, [`bootstrap_mean`] for the mean of anything,
 //!   [`bootstrap_difference`] for that of two, [`bootstrap`] for any statistic.
 //! - [`pearson`] and [`spearman`] correlations, and [`spearman_brown`] for the reliability of a whole.
-//! - [`krippendorff_alpha`] for the agreement of raters, [`standard_deviation`] of a sample.
+//! - [`krippendorff_alpha`] for the agreement of raters, [`standard_deviation`] of a sample,
+//!   [`population_variance`] of all there is.
 //! - [`fisher_exact_greater`] to compare two proportions.
 //! - [`log_sum_exp`], [`log_softmax`], [`softmax`] and [`logistic`] between probabilities and their
 //!   logarithms; [`entropy`].
@@ -52,6 +53,6 @@ pub use correlation::{pearson, spearman, spearman_brown};
 pub use fisher::fisher_exact_greater;
 pub use interval::Interval;
 pub use logarithms::{entropy, log_softmax, log_sum_exp, logistic, softmax};
-pub use mean::{mean, standard_deviation, standard_error};
+pub use mean::{mean, population_variance, standard_deviation, standard_error};
 pub use proportion::wilson_interval;
 pub use quantile::{median, percentile, quartiles};

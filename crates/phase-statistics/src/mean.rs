@@ -18,8 +18,20 @@ pub fn standard_error(values: &[f64]) -> Option<f64> {
     variance(values).map(|variance| libm::sqrt(variance / values.len() as f64))
 }
 
+/// The variance of all values there are, the mean square of the differences from their mean: n degrees of
+/// freedom, not n − 1 as for a sample. `None` for an empty slice.
+#[must_use]
+pub fn population_variance(values: &[f64]) -> Option<f64> {
+    Some(squares(values)? / values.len() as f64)
+}
+
 fn variance(values: &[f64]) -> Option<f64> {
-    let mean = mean(values)?;
-    let squares = values.iter().map(|value| (value - mean) * (value - mean)).sum::<f64>();
+    let squares = squares(values)?;
     (values.len() > 1).then(|| squares / (values.len() as f64 - 1.0))
+}
+
+/// The sum of the squares of the differences from the mean.
+fn squares(values: &[f64]) -> Option<f64> {
+    let mean = mean(values)?;
+    Some(values.iter().map(|value| (value - mean) * (value - mean)).sum())
 }

@@ -2,7 +2,7 @@
 
 use phase_statistics::{
     Interval, bootstrap_difference, bootstrap_mean, fisher_exact_greater, krippendorff_alpha, mean, median,
-    percentile, quartiles, standard_error, wilson_interval,
+    percentile, population_variance, quartiles, standard_error, wilson_interval,
 };
 use proptest::prelude::*;
 use rand_pcg::Pcg64Mcg;
@@ -91,6 +91,14 @@ fn the_median_of_an_even_number_is_a_midpoint() {
     assert_eq!(median(&[7]), Some(7.0));
     assert_eq!(median(&[9, 1, 4]), Some(4.0));
     assert_eq!(median(&[9, 1, 4, 5]), Some(4.5));
+}
+
+#[test]
+fn the_variance_of_a_population_divides_by_its_size() {
+    // Two squares of 4 and two of 16, by four.
+    assert_eq!(population_variance(&[1.0, 3.0, 7.0, 9.0]), Some(10.0));
+    assert_eq!(population_variance(&[3.0]), Some(0.0));
+    assert_eq!(population_variance(&[]), None);
 }
 
 #[test]

@@ -126,9 +126,9 @@ impl Given {
 /// Answers to questions by their names. Those to optional questions may be absent.
 #[derive(Clone, PartialEq, Eq, Debug, Default, Serialize, Deserialize)]
 #[serde(transparent)]
-pub struct Answer(pub BTreeMap<String, Given>);
+pub struct Responses(pub BTreeMap<String, Given>);
 
-impl Answer {
+impl Responses {
     /// Reads the answer to some questions, a JSON object with a member for each.
     ///
     /// # Errors

@@ -2,7 +2,7 @@
 
 use crate::{
     config::{CatchTrial, StudyConfig},
-    question::{Answer, Given},
+    question::{Given, Responses},
 };
 use std::collections::BTreeMap;
 
@@ -24,7 +24,7 @@ pub struct GivenAnswer {
     /// When it was stored.
     pub at: Millis,
     /// The answer.
-    pub answer: Answer,
+    pub answer: Responses,
     /// Time from the first sight of the trial until the answer, as the rater's browser measured it (ms).
     pub response_time: i64,
     /// How often the video was played to its end.
@@ -56,7 +56,7 @@ pub struct Rater {
     /// When it agreed to take part.
     pub consented: Option<Millis>,
     /// What it said of itself, and when.
-    pub demographics: Option<(Millis, Answer)>,
+    pub demographics: Option<(Millis, Responses)>,
     /// When it had read the instructions.
     pub instructed: Option<Millis>,
     /// Its trials in order; empty before it agreed.
@@ -144,7 +144,7 @@ impl CatchTrial {
     /// Whether an answer is right: of a question with one answer it is among those expected, of one with several all that are
     /// expected are among it.
     #[must_use]
-    pub fn passed_by(&self, answer: &Answer) -> bool {
+    pub fn passed_by(&self, answer: &Responses) -> bool {
         self.expected.iter().all(|(question, expected)| match answer.get(question) {
             Some(Given::Many(several)) => expected.is_subset(several),
             Some(given) => expected.iter().any(|choice| given.has(choice)),

@@ -21,7 +21,8 @@
 //!
 //! let file = TensorFile::open_as(&bytes, "format", "example-weights/1")?;
 //! assert_eq!(file.values("output.bias", &[2])?, [0.5, -1.0]);
-//! assert!(matches!(file.values("output.weight", &[2]), Err(TensorsError::Missing(name)) if name == "output.weight"));
+//! let missing = file.values("output.weight", &[2]);
+//! assert!(matches!(missing, Err(TensorsError::Missing(name)) if name == "output.weight"));
 //! # Ok::<(), TensorsError>(())
 //! ```
 

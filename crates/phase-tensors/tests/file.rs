@@ -18,9 +18,10 @@ fn what_is_written_is_read() {
     let file = TensorFile::open_as(&bytes, "format", "example/1").unwrap();
     assert_eq!(file.metadata_value(), Some("example/1"));
     file.check_names(|name| name == "weight" || name == "bias").expect("these are all");
-    assert!(
-        matches!(file.check_names(|name| name == "weight"), Err(TensorsError::Unknown(name)) if name == "bias")
-    );
+    assert!(matches!(
+        file.check_names(|name| name == "weight"),
+        Err(TensorsError::Unknown(name)) if name == "bias"
+    ));
     let mut names: Vec<&str> = file.names().collect();
     names.sort_unstable();
     assert_eq!(names, ["bias", "weight"]);

@@ -51,7 +51,10 @@ impl Hypotheses {
     /// ln P(Y) of each, with −∞ for those about absent objects.
     pub(super) fn log_priors(&self, objects: usize) -> impl Iterator<Item = f32> {
         let goals = physical_goals(AgentId::ZERO, objects).len();
-        let absent = move |goal: &Goal| matches!(goal, Goal::ObjectOnLandmark { object, .. } if object.index() >= objects);
+        let absent = move |goal: &Goal| match goal {
+            Goal::ObjectOnLandmark { object, .. } => object.index() >= objects,
+            Goal::AgentOnLandmark { .. } | Goal::Touch { .. } => false,
+        };
         self.all.iter().map(move |hypothesis| {
             if hypothesis.goals.iter().any(absent) {
                 MASKED_LOGIT

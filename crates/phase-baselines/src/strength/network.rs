@@ -8,6 +8,7 @@ use phase_simple::{
     Dense,
     strength::{FEATURES, Weights},
 };
+use phase_statistics::{mean, population_variance};
 
 /// Standardises values to mean 0 and standard deviation 1, and back.
 #[derive(Clone, Debug)]
@@ -79,9 +80,11 @@ impl Network {
 impl Standardisation {
     /// The scaling of the training samples.
     pub(super) fn of<'a>(samples: impl Iterator<Item = &'a Sample> + Clone) -> Self {
-        let features =
-            core::array::from_fn(|k| MeanAndDeviation::of(samples.clone().map(|sample| sample.features[k])));
-        Self { features, force: MeanAndDeviation::of(samples.map(force)) }
+        let of = |number: &dyn Fn(&Sample) -> f64| {
+            MeanAndDeviation::of(&samples.clone().map(number).collect::<Vec<f64>>())
+        };
+        let features = core::array::from_fn(|k| of(&|sample| sample.features[k]));
+        Self { features, force: of(&force) }
     }
 
     /// The standard deviation of the forces (N).
@@ -95,10 +98,9 @@ impl Standardisation {
 }
 
 impl MeanAndDeviation {
-    fn of(values: impl Iterator<Item = f64> + Clone) -> Self {
-        let count = values.clone().count().max(1) as f64;
-        let mean = values.clone().sum::<f64>() / count;
-        let variance = values.map(|number| (number - mean) * (number - mean)).sum::<f64>() / count;
+    fn of(values: &[f64]) -> Self {
+        let mean = mean(values).unwrap_or_default();
+        let variance = population_variance(values).unwrap_or_default();
         // A constant feature carries no information and must not be amplified.
         let deviation = if variance > 1e-12 { variance.sqrt() as f32 } else { 1.0 };
         Self { mean: mean as f32, deviation }

@@ -25,8 +25,8 @@ pub enum Protocol {
 
 /// Events to whose ratings a model of reports was fitted, and how closely its reports agree with them.
 ///
-/// It comes with the model, so that an evaluation of these events can say that the model knows their ratings, and show the
-/// agreement of models that did not know them.
+/// It comes with the model, so that an evaluation of these events can say that the model knows their ratings,
+/// and show the agreement of models that did not know them.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ReportTraining {
@@ -54,8 +54,8 @@ pub enum ProtocolError {
 }
 
 impl ReportTraining {
-    /// Labels the agreement of the model's reports with the ratings that it was fitted to, and adds that of folds held out if all
-    /// of the events were evaluated. `events_sha256` is the digest of the events of the summary.
+    /// Labels the agreement of the model's reports with the ratings that it was fitted to, and adds that of
+    /// folds held out if all of the events were evaluated. `events_sha256` is the digest of the events of the summary.
     pub fn label(&self, summary: &mut RecognitionSummary, events_sha256: &str) {
         // Only where reports are predicted beside the posterior is there one for itself.
         if events_sha256 != self.events_sha256 || summary.relation_agreement.is_none() {

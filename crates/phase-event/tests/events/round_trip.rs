@@ -195,7 +195,8 @@ proptest! {
         let bits = |recording: &Recording| -> Vec<u32> {
             let event = &recording.simulation.as_ref().expect("a simulation").event;
             let bodies = event.frames().flat_map(|state| state.bodies);
-            bodies.take(4 * 16).flat_map(|body| [body.position.x, body.velocity.y, body.angle]).map(f32::to_bits).collect()
+            let numbers = |body: phase_model::Body| [body.position.x, body.velocity.y, body.angle];
+            bodies.take(4 * 16).flat_map(numbers).map(f32::to_bits).collect()
         };
         prop_assert_eq!(bits(&read[0]), bits(&original));
         prop_assert_eq!(&read[0], &original);

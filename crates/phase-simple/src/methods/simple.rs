@@ -204,7 +204,10 @@ fn details(inference: &Inference) -> Value {
     let hypothesis = |(hypothesis, weight): &(_, f64)| json!({ "hypothesis": hypothesis, "weight": weight });
     let hypotheses: Vec<Value> =
         inference.posterior.hypotheses.iter().take(REPORTED_HYPOTHESES).map(hypothesis).collect();
-    let kind = |kind: &MindPosterior| json!({ "kind": kind.agents.minds.kind().name(), "probability": kind.probability });
+    let kind = |kind: &MindPosterior| {
+        let name = kind.agents.minds.kind().name();
+        json!({ "kind": name, "probability": kind.probability })
+    };
     let minds: Vec<Value> = inference.minds.iter().map(kind).collect();
     json!({
         "hypotheses": hypotheses,

@@ -3,7 +3,7 @@
 use super::Coverage;
 use crate::{
     config::{Stimulus, StudyConfig},
-    question::{Answer, Given},
+    question::{Given, Responses},
     record::{Rater, Standing},
 };
 use std::collections::BTreeMap;
@@ -11,7 +11,7 @@ use std::collections::BTreeMap;
 /// A video and what raters said of it.
 pub(super) struct Judged<'a> {
     pub(super) stimulus: &'a Stimulus,
-    pub(super) answers: Vec<&'a Answer>,
+    pub(super) answers: Vec<&'a Responses>,
 }
 
 /// All videos with at least one judgement, in the order of the configuration.
@@ -19,7 +19,7 @@ pub(super) struct Judgements<'a>(pub(super) Vec<Judged<'a>>);
 
 impl<'a> Judgements<'a> {
     pub(super) fn of(config: &'a StudyConfig, raters: &'a [Rater]) -> Self {
-        let mut answers = BTreeMap::<&str, Vec<&Answer>>::new();
+        let mut answers = BTreeMap::<&str, Vec<&Responses>>::new();
         for rater in raters.iter().filter(|rater| rater.standing(config) == Standing::Complete) {
             for trial in rater.trials.iter().filter(|trial| !trial.catch) {
                 if let Some(given) = &trial.given {

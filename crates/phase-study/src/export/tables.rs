@@ -4,7 +4,7 @@ use super::csv::{Cell, Table};
 use crate::{
     config::StudyConfig,
     forms::{Forms, MOST_OBJECTS},
-    question::{Answer, Given, Kind, Question},
+    question::{Given, Kind, Question, Responses},
     record::{Rater, Trial},
 };
 
@@ -30,7 +30,7 @@ fn question_columns(table: &mut Table, questions: &[Question], prefix: &str) {
     }
 }
 
-fn question_cells(questions: &[Question], answer: Option<&Answer>) -> Vec<Cell> {
+fn question_cells(questions: &[Question], answer: Option<&Responses>) -> Vec<Cell> {
     let mut cells = Vec::new();
     for question in questions {
         let given = answer.and_then(|answer| answer.get(&question.name));

@@ -9,7 +9,7 @@ mod read;
 pub use error::{StoreError, StoreProblem};
 
 use crate::{
-    question::Answer,
+    question::Responses,
     record::{Departure, GivenAnswer, Millis, Rater},
 };
 use rusqlite::{Connection, OpenFlags, Transaction, TransactionBehavior, params};
@@ -237,7 +237,7 @@ impl Writing<'_> {
         rater: u64,
         page: Page,
         at: Millis,
-        answer: Option<&Answer>,
+        answer: Option<&Responses>,
     ) -> Result<(), StoreError> {
         let text = answer.map(|answer| answer.to_json().to_string());
         let sql = "INSERT INTO page (rater, page, at, answer) VALUES (?1, ?2, ?3, ?4)";

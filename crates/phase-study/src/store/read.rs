@@ -2,7 +2,7 @@
 
 use super::{Page, StoreError, StoreProblem, Writing};
 use crate::{
-    question::Answer,
+    question::Responses,
     record::{Departure, GivenAnswer, Rater, Trial},
 };
 use rusqlite::{OptionalExtension, Row};
@@ -153,7 +153,7 @@ impl Writing<'_> {
         Ok(Trial { shown: self.get(row, 2)?, catch: self.get(row, 3)?, given })
     }
 
-    fn answer(&self, number: u64, text: &str) -> Result<Answer, StoreError> {
+    fn answer(&self, number: u64, text: &str) -> Result<Responses, StoreError> {
         serde_json::from_str(text).map_err(|error| self.damaged(number, error.to_string()))
     }
 }

@@ -12,7 +12,7 @@ use crate::{
     assignment::{Shown, assign},
     config::StudyConfig,
     forms::Forms,
-    question::{Answer, Question},
+    question::{Question, Responses},
     record::{Departure, GivenAnswer, Millis, Rater, load},
     store::{Page, Store, Writing},
 };
@@ -204,7 +204,7 @@ impl Study {
             if rater.consented.is_none() || config.demographics.is_empty() {
                 return Err(StudyError::NotNow("demographics"));
             }
-            let answer = Answer::read(&Field::root(answer), &config.demographics)?;
+            let answer = Responses::read(&Field::root(answer), &config.demographics)?;
             match &rater.demographics {
                 Some((_, said)) if *said == answer => Ok(()),
                 Some(_) => Err(StudyError::OtherAnswer),
@@ -249,7 +249,7 @@ impl Study {
             let questions = questions(config, forms, &trial.shown, trial.catch);
             let given = GivenAnswer {
                 at: now,
-                answer: Answer::read(&root.required("answer")?, &questions)?,
+                answer: Responses::read(&root.required("answer")?, &questions)?,
                 response_time: root.required("response_time")?.whole(0, LONGEST_RESPONSE)?,
                 plays: root.required("plays")?.whole(1, MOST_PLAYS)?,
             };

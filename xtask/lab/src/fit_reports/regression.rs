@@ -5,6 +5,7 @@ use phase_simple::{
     Impression, ReportModel,
     report_model::{REPORT_FEATURES, REPORT_MODEL_FORMAT, REPORTS, report_features},
 };
+use phase_statistics::{mean, population_variance};
 use smartcore::{
     error::Failed,
     linalg::basic::{arrays::Array, matrix::DenseMatrix},
@@ -26,12 +27,10 @@ pub(super) struct Rated {
 pub(super) fn fit(events: &[Rated], ridge: f64) -> Result<ReportModel, Failed> {
     let features: Vec<[f64; REPORT_FEATURES]> =
         events.iter().map(|event| report_features(&event.impression)).collect();
-    let count = features.len().max(1) as f64;
-    let means: [f64; REPORT_FEATURES] =
-        core::array::from_fn(|k| features.iter().map(|it| it[k]).sum::<f64>() / count);
+    let column = |k: usize| features.iter().map(|it| it[k]).collect::<Vec<f64>>();
+    let means: [f64; REPORT_FEATURES] = core::array::from_fn(|k| mean(&column(k)).unwrap_or_default());
     let deviations: [f64; REPORT_FEATURES] = core::array::from_fn(|k| {
-        let square = |it: &[f64; REPORT_FEATURES]| (it[k] - means[k]) * (it[k] - means[k]);
-        let variance = features.iter().map(square).sum::<f64>() / count;
+        let variance = population_variance(&column(k)).unwrap_or_default();
         // A feature that is the same everywhere tells nothing, whatever its scale.
         if variance > 0.0 { libm::sqrt(variance) } else { 1.0 }
     });
