@@ -46,7 +46,7 @@ pub fn run(options: &Results) -> Result<(), XtaskError> {
         }
         different += 1;
         if !options.check {
-            atomic::write(&path, text.as_bytes()).map_err(CliError::from)?;
+            atomic::write(&path, text.as_bytes()).map_err(CliError::Output)?;
         }
         print_result(format!("{}: {}", file.display(), if options.check { "differs" } else { "rewritten" }));
     }
@@ -70,7 +70,7 @@ pub(crate) fn root() -> &'static Path {
 pub fn documents(root: &Path) -> Result<Vec<(PathBuf, String)>, XtaskError> {
     let benchmark = benchmark(root)?;
     let figures = evaluation::to_lines(&evaluation::figures(&benchmark))
-        .map_err(|error| CliError::from(WriteError::json(Path::new(FIGURES), error)))?;
+        .map_err(|error| CliError::Output(WriteError::json(Path::new(FIGURES), error)))?;
     check_protocols(root, &benchmark)?;
     let page = evaluation::page(&benchmark)
         .map_err(|error| CliError::Usage(format!("{FIGURES}: the page lacks a figure: {error}")))?;

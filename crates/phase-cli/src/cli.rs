@@ -8,7 +8,7 @@ use crate::{
     eval::{self, options::Eval},
     export::{self, Export},
     gen_dataset::{
-        self, merge,
+        self,
         options::{GenDataset, Merge},
     },
     man::{self, ManPages},
@@ -102,7 +102,7 @@ impl Command {
             Self::NewScene(arguments) => new_scene::run(arguments, context),
             Self::GenDataset(arguments) => gen_dataset::run(arguments, context),
             Self::Verify(arguments) => verify::run(arguments, context),
-            Self::Merge(arguments) => merge::run(arguments, context),
+            Self::Merge(arguments) => gen_dataset::run_merge(arguments, context),
             Self::Export(arguments) => export::run(arguments, context),
             Self::Splits(arguments) => splits::run(arguments, context),
             Self::Stats(arguments) => stats::run(arguments, context),

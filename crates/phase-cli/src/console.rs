@@ -12,12 +12,6 @@ pub fn print_result(line: impl Display) {
     let _ = writeln!(io::stdout(), "{line}");
 }
 
-/// A number of events in words: `1 event`, `12 events`.
-#[must_use]
-pub fn events(count: usize) -> String {
-    if count == 1 { "1 event".into() } else { format!("{count} events") }
-}
-
 /// Writes a line to stderr, where progress, notes and errors go.
 pub fn print_message(line: impl Display) {
     let _ = writeln!(io::stderr(), "{line}");

@@ -2,6 +2,7 @@
 
 use crate::{console::print_message, progress::Progress};
 use clap::Args;
+use phase_runs::listener::{self, Listener, Work};
 use std::fmt::Display;
 
 /// A program that runs the commands of this crate, as named in its messages.
@@ -47,13 +48,6 @@ impl Context {
         }
     }
 
-    /// The same context without notes and progress.
-    #[must_use]
-    pub const fn quiet(mut self) -> Self {
-        self.verbosity = Verbosity { quiet: true, verbose: false };
-        self
-    }
-
     /// Prints details on stderr, if `--verbose` is given.
     pub fn detail(&self, line: impl Display) {
         if self.verbosity.verbose {
@@ -72,5 +66,20 @@ impl Context {
     #[must_use]
     pub fn progress_over(&self, activity: &str, steps: usize) -> Progress {
         Progress::new(activity, 0, steps, 0, self.verbosity.quiet)
+    }
+}
+
+impl Listener for Context {
+    fn note(&self, line: &str) {
+        Self::note(self, line);
+    }
+
+    fn detail(&self, line: &str) {
+        Self::detail(self, line);
+    }
+
+    fn begin(&self, work: &Work<'_>) -> Box<dyn listener::Progress> {
+        let Work { activity, events, steps, steps_each } = *work;
+        Box::new(Progress::new(activity, events, steps, steps_each, self.verbosity.quiet))
     }
 }

@@ -1,12 +1,16 @@
 //! Physics engine, length of events and search effort of agents: options shared by several commands.
 
-use crate::error::CliError;
 use clap::{
     Args,
     builder::{PossibleValuesParser, TypedValueParser},
     value_parser,
 };
-use phase_minds::{Foresight, MindKind, MindParameters, PhaseParameters};
+use phase_minds::{Foresight, MindKind};
+
+use phase_runs::{
+    effort::{Effort, MindChoice},
+    error::RunError,
+};
 use phase_sim::{Engine, SimulationSettings};
 
 /// Which minds agents have.
@@ -20,17 +24,9 @@ pub struct MindOptions {
     pub one_way_turns: bool,
 }
 
-impl MindOptions {
-    /// Whether these are the minds without any of the options.
-    #[must_use]
-    pub fn are_default(&self) -> bool {
-        self.minds.unwrap_or_default() == MindKind::default() && !self.one_way_turns
-    }
-
-    /// The name of a method that imagines such minds.
-    #[must_use]
-    pub fn name(&self, method: &str) -> String {
-        self.minds.map_or_else(|| method.into(), |kind| format!("{method}-{}-minds", kind.name()))
+impl From<MindOptions> for MindChoice {
+    fn from(MindOptions { minds, one_way_turns }: MindOptions) -> Self {
+        Self { kind: minds, one_way_turns }
     }
 }
 
@@ -60,88 +56,25 @@ pub struct SimulationOptions {
 }
 
 impl SimulationOptions {
-    /// The requested settings.
-    ///
-    /// # Errors
-    /// [`CliError::Usage`], if minds of this kind do not have a parameter that was given.
-    pub fn settings(&self) -> Result<SimulationSettings, CliError> {
-        self.settings_with(MindParameters::of(self.minds.minds.unwrap_or_default()))
-    }
-
-    /// The requested settings, where minds have these parameters in place of the defaults.
-    ///
-    /// # Errors
-    /// [`CliError::Usage`], if other minds were requested, or minds of this kind do not have a parameter that was given.
-    pub fn settings_with(&self, mut minds: MindParameters) -> Result<SimulationSettings, CliError> {
-        if let Some(kind) = self.minds.minds.filter(|kind| *kind != minds.kind()) {
-            let asked = kind.name();
-            let given = minds.kind().name();
-            return Err(CliError::Usage(format!(
-                "--minds {asked}: the parameters are those of {given} minds"
-            )));
-        }
-        if let Some(foresight) = self.foresight {
-            minds = with_foresight(minds, foresight)?;
-        }
-        if let Some(particles) = self.particles {
-            minds = minds.with_particles(particles as usize);
-        }
-        if let Some(simulations) = self.simulations {
-            minds = minds.with_simulations(simulations as usize);
-        }
-        let defaults = SimulationSettings::default();
-        Ok(SimulationSettings {
-            engine: self.engine.unwrap_or_default(),
-            max_steps: self.max_steps.map_or(defaults.max_steps, |steps| steps as usize),
-            one_way_turns: self.minds.one_way_turns,
-            minds,
-            ..defaults
-        })
-    }
-
-    /// The options as given, to repeat the command.
+    /// What was asked for.
     #[must_use]
-    pub fn as_given(&self) -> String {
-        let options =
-            [("particles", self.particles), ("simulations", self.simulations), ("max-steps", self.max_steps)];
-        let engine = self.engine.map(|engine| format!(" --engine {}", engine.name()));
-        let minds = self.minds.minds.map(|minds| format!(" --minds {}", minds.name()));
-        let turns = self.minds.one_way_turns.then(|| " --one-way-turns".to_owned());
-        let foresight = self.foresight.map(|foresight| format!(" --foresight {}", foresight.name()));
-        let given = options.into_iter().filter_map(|(name, value)| Some(format!(" --{name} {}", value?)));
-        engine.into_iter().chain(minds).chain(turns).chain(foresight).chain(given).collect()
-    }
-}
-
-/// Settings in words.
-#[must_use]
-pub fn description(settings: &SimulationSettings) -> String {
-    let SimulationSettings { engine, max_steps, minds, one_way_turns, .. } = settings;
-    let engine = engine.name();
-    let kind = minds.kind().name();
-    let search = match minds {
-        MindParameters::Phase(phase) => format!(", foresight {}", phase.foresight.name()),
-        MindParameters::Published(_) if minds.foresees_collisions() => String::new(),
-        MindParameters::Published(_) => ", without collisions".to_owned(),
-    };
-    let turns = if *one_way_turns { ", one-way turns" } else { "" };
-    let particles = minds.particles();
-    let simulations = minds.simulations();
-    format!(
-        "engine {engine}, {kind} minds{turns}{search}, {particles} particles, {simulations} simulations, at most \
-         {max_steps} steps"
-    )
-}
-
-/// Minds that search in these dynamics, if minds of their kind can.
-fn with_foresight(minds: MindParameters, foresight: Foresight) -> Result<MindParameters, CliError> {
-    match (minds, foresight) {
-        (MindParameters::Phase(phase), _) => Ok(PhaseParameters { foresight, ..phase }.into()),
-        (MindParameters::Published(_), Foresight::Points) => Ok(minds.without_collisions()),
-        (MindParameters::Published(_), Foresight::Coarse | Foresight::Exact) => {
-            let rule = "published minds search in dynamics of their own, which can only be `points` instead";
-            Err(CliError::Usage(format!("--foresight {}: {rule}", foresight.name())))
+    pub fn effort(&self) -> Effort {
+        Effort {
+            engine: self.engine,
+            minds: self.minds.into(),
+            foresight: self.foresight,
+            particles: self.particles,
+            simulations: self.simulations,
+            max_steps: self.max_steps,
         }
+    }
+
+    /// The settings of the simulation.
+    ///
+    /// # Errors
+    /// [`RunError::Usage`], if minds of this kind do not have a parameter that was given.
+    pub fn settings(&self) -> Result<SimulationSettings, RunError> {
+        self.effort().settings()
     }
 }
 

@@ -46,34 +46,27 @@
 #![deny(missing_docs)]
 
 pub mod benchmark;
-pub mod captions;
 pub mod cli;
 pub mod completions;
 pub mod console;
 pub mod context;
 pub mod effort;
-pub mod engine;
 pub mod error;
 pub mod eval;
-pub mod event_writer;
 pub mod export;
-pub mod gallery_writer;
 pub mod gen_dataset;
 pub mod interrupt;
 pub mod man;
 pub mod new_scene;
 pub mod output;
 pub mod parallel;
-pub mod picture;
 pub mod playground;
 pub mod program;
 pub mod progress;
 pub mod render;
 pub mod serve;
 pub mod shard_option;
-pub mod shortcuts;
 pub mod simulate;
-pub mod source;
 pub mod splits;
 pub mod stats;
 pub mod study;

@@ -125,6 +125,16 @@ impl Progress {
     }
 }
 
+impl phase_runs::listener::Progress for Progress {
+    fn steps(&self, count: usize) {
+        Self::steps(self, count);
+    }
+
+    fn event(&self, counted: usize, line: &str) {
+        Self::event(self, counted, line);
+    }
+}
+
 impl Drop for Progress {
     fn drop(&mut self) {
         if let Some(bar) = &self.bar {

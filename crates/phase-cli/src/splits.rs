@@ -1,6 +1,6 @@
 //! `splits`: makes or checks the split of a dataset.
 
-use crate::{context::Context, error::CliError, output::Output, source::EventInput};
+use crate::{context::Context, error::CliError, output::Output};
 use clap::Args;
 use phase_dataset::{
     manifest::{MANIFEST_FILE, Manifest},
@@ -8,6 +8,7 @@ use phase_dataset::{
     splits::{self, Item, Rule, Split},
 };
 use phase_files::FileError;
+use phase_runs::source::EventInput;
 use serde_json::json;
 use std::path::PathBuf;
 

@@ -1,13 +1,6 @@
 //! `stats`: the paper's figures compared with those of a dataset or of other events, and plots of them.
 
-use crate::{
-    context::Context,
-    error::CliError,
-    output::Output,
-    parallel::Jobs,
-    shortcuts::{self, audited},
-    source::EventInput,
-};
+use crate::{context::Context, error::CliError, output::Output, parallel::Jobs};
 use clap::Args;
 use phase_audit::{Audit, Target};
 use phase_dataset::{
@@ -21,6 +14,10 @@ use phase_model::{Scene, arena::STEP_VIDEO_SECONDS};
 use phase_report::{
     acceptance,
     statistics::{self, Statistics, StatisticsRow},
+};
+use phase_runs::{
+    shortcuts::{self, audited},
+    source::EventInput,
 };
 use serde_json::{Value, json};
 use std::{
@@ -58,7 +55,7 @@ type Plot = (&'static str, &'static str, &'static str, Vec<(String, f64)>);
 /// If the events cannot be used or the plots cannot be written.
 pub fn run(arguments: &Stats, context: &Context) -> Result<(), CliError> {
     let (statistics, selection) = statistics(&arguments.events, context)?;
-    let audit = audited(&arguments.events, &arguments.jobs, context)?;
+    let audit = audited(&arguments.events, arguments.jobs.given(), context)?;
     let text = report(&statistics, &selection, audit.as_ref());
     if let Some(out) = &arguments.out {
         write(out, &text, &statistics, &selection, audit.as_ref()).map_err(CliError::Output)?;

@@ -1,28 +1,19 @@
 //! The command line from within Python.
 
 use crate::error::raise;
-use phase_cli::{
-    PHASE,
-    cli::Cli,
-    context::{Context, Verbosity},
-    interrupt, program,
-};
+use phase_cli::{PHASE, cli::Cli, interrupt::leave_to_host, program};
+use phase_runs::interrupt;
 use pyo3::prelude::*;
 use std::{ffi::OsString, thread, time::Duration};
 
 /// Time between two questions to Python whether it was interrupted.
 const POLL: Duration = Duration::from_millis(100);
 
-/// A context without notes and progress.
-pub(crate) const fn quiet() -> Context {
-    Context { program: PHASE, verbosity: Verbosity { quiet: true, verbose: false } }
-}
-
 /// Runs a command of `phase`, as from its command line without the program's name. An interruption of Python
 /// stops it as Ctrl-C does there: what is finished is kept.
 #[pyfunction]
 pub(crate) fn run(py: Python<'_>, arguments: Vec<String>) -> PyResult<()> {
-    interrupt::leave_to_host();
+    leave_to_host();
     let arguments = core::iter::once("phase".to_owned()).chain(arguments).map(OsString::from);
     let worker = thread::spawn(move || program::run_with::<Cli>(PHASE, arguments));
     let mut interrupted = None;

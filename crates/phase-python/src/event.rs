@@ -1,13 +1,11 @@
 //! Events: simulated, read, as arrays.
 
-use crate::{
-    arrays::row_of, command::quiet, error::raise, mind::read_parameters, scene::Scene, worlds::engine_of,
-};
+use crate::{arrays::row_of, error::raise, mind::read_parameters, scene::Scene, worlds::engine_of};
 use core::ops::ControlFlow;
 use numpy::{PyArray2, PyArray3};
-use phase_cli::{engine::GENERATOR, event_writer::settings_value, source::EventInput};
 use phase_event::{Recording, Thought, from_json, to_json};
 use phase_model::arena::SUBSTEPS;
+use phase_runs::{engine::GENERATOR, event_writer::settings_value, listener::Silent, source::EventInput};
 use phase_sim::{SimulationSettings, simulate_with};
 use pyo3::prelude::*;
 use std::{path::PathBuf, sync::Arc};
@@ -115,7 +113,7 @@ pub(crate) struct EventSource {
 impl EventSource {
     #[new]
     fn open(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
-        let source = py.detach(|| EventInput::open(&path, &[], &quiet())).map_err(raise)?;
+        let source = py.detach(|| EventInput::open(&path, &[], &Silent)).map_err(raise)?;
         Ok(Self { source })
     }
 

@@ -2,9 +2,9 @@
 
 use crate::{error::raise, event::Event};
 use core::ops::ControlFlow;
-use phase_cli::{effort::MindOptions, eval::methods as named};
 use phase_eval::goals::Answer;
 use phase_event::ObservedEvent;
+use phase_runs::{effort::MindChoice, eval::methods as named};
 use pyo3::prelude::*;
 use serde_json::json;
 
@@ -49,7 +49,7 @@ pub(crate) fn infer(
     steps: Option<usize>,
 ) -> PyResult<String> {
     let observed = observed(&event, steps)?;
-    let recogniser = named::recogniser(method, None, &MindOptions::default()).map_err(raise)?;
+    let recogniser = named::recogniser(method, None, &MindChoice::default()).map_err(raise)?;
     let judged = interruptible(py, |tick| {
         let judged = recogniser.judge(&observed, seed, tick);
         judged.map_err(|error| error.to_string())
@@ -71,7 +71,7 @@ pub(crate) fn forecast(
     seed: u64,
 ) -> PyResult<String> {
     let observed = observed(&event, Some(watched))?;
-    let forecaster = named::forecaster(method, None, &MindOptions::default()).map_err(raise)?;
+    let forecaster = named::forecaster(method, None, &MindChoice::default()).map_err(raise)?;
     let found = interruptible(py, |tick| {
         let found = forecaster.forecast(&observed, steps, seed, tick);
         found.map_err(|error| error.to_string())

@@ -1,12 +1,12 @@
 //! Scenes: read, written, sampled.
 
 use crate::error::raise;
-use phase_cli::gen_dataset::plan;
 use phase_dataset::composition::{Composition, EventSlot, SetSlot};
 use phase_model::{
     Action, AgentId, Scene as ModelScene,
     random::{self, Purpose},
 };
+use phase_runs::gen_dataset::plan;
 use phase_sampler::{Contrast, ContrastRequest, Part, Request, SampleError, Stage, sample, sample_named};
 use pyo3::prelude::*;
 use rand::RngExt;

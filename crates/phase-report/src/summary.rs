@@ -3,22 +3,16 @@
 use phase_dataset::summary::{KindRow, MotionQuartiles, Quartiles};
 use phase_model::EventKind;
 
-/// Minimum share of agents with own positive goals whose outcome should be the recorded one.
-pub const OWN_SHARE_TARGET: f32 = 0.85;
-/// The target range of the median ratio of completion times, simulated to recorded.
-pub const TIME_RATIO_TARGET: (f32, f32) = (0.75, 1.33);
-
 const OUTCOMES: &str = "outcomes        events   as recorded        own, positive      reached: recorded  \
                         simulated   median steps: recorded  simulated   time ratio  (agents)\n";
 const MOTION: &str = "quartiles       speed (u/s): recorded        simulated   path (u): recorded          simulated   \
                       contact (%): recorded      simulated\n";
 
-/// Both tables and their comparison with the targets, each line ended.
+/// Outcomes and motion of simulations beside those of recordings, a row for each kind of event; each line ended.
 #[must_use]
 pub fn table(rows: &[KindRow]) -> String {
     let lines = |line: fn(&KindRow) -> String| rows.iter().map(line).collect::<String>();
-    let verdict = rows.last().map(verdict).unwrap_or_default();
-    format!("{OUTCOMES}{}\n{MOTION}{}\n{verdict}", lines(outcomes), lines(motion))
+    format!("{OUTCOMES}{}\n{MOTION}{}", lines(outcomes), lines(motion))
 }
 
 fn name(row: &KindRow) -> &'static str {
@@ -69,24 +63,4 @@ fn motion(row: &KindRow) -> String {
         contact(theirs),
         contact(ours),
     )
-}
-
-/// Comparison of the row for all kinds with the targets; nothing where there is nothing to judge.
-fn verdict(all: &KindRow) -> String {
-    let met = |met: bool| if met { "met" } else { "missed" };
-    let mut text = String::new();
-    if all.own_agents > 0 {
-        let share = all.own_matched as f32 / all.own_agents as f32;
-        let (percent, target) = (100.0 * share, 100.0 * OWN_SHARE_TARGET);
-        let met = met(share >= OWN_SHARE_TARGET);
-        text.push_str(&format!(
-            "own, positive goals as recorded: {percent:.1} % (target: at least {target:.0} %, {met})\n"
-        ));
-    }
-    if let Some(ratio) = all.time_ratio {
-        let (low, high) = TIME_RATIO_TARGET;
-        let met = met((low..=high).contains(&ratio.median));
-        text.push_str(&format!("time ratio: {:.2} (target: {low} to {high}, {met})\n", ratio.median));
-    }
-    text
 }

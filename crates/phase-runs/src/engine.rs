@@ -1,13 +1,13 @@
 //! Seeds of events and attempts, and simulations whose errors name the event.
 
-use crate::error::CliError;
+use crate::error::RunError;
 use core::ops::ControlFlow;
 use phase_event::{Event, Step};
 use phase_model::{
-    AgentId, Scene,
+    Scene,
     random::{self, Purpose},
 };
-use phase_sim::{BeliefSnapshot, SimulationSettings};
+use phase_sim::SimulationSettings;
 
 /// Name and version of this program, as stored in files.
 pub const GENERATOR: &str = concat!("phase ", env!("CARGO_PKG_VERSION"));
@@ -28,21 +28,15 @@ pub fn attempt_seed(dataset_seed: u64, slot: usize, attempt: usize) -> u64 {
 /// Simulates an event; `None` if `on_step` cancelled it.
 ///
 /// # Errors
-/// [`CliError::Simulation`].
+/// [`RunError::Simulation`].
 pub fn simulate(
     id: &str,
     scene: &Scene,
     seed: u64,
     settings: &SimulationSettings,
     on_step: &mut dyn FnMut(&Step) -> ControlFlow<()>,
-) -> Result<Option<Event>, CliError> {
+) -> Result<Option<Event>, RunError> {
     let (event, finished) = phase_sim::simulate_with(scene, seed, settings, on_step)
-        .map_err(|source| CliError::Simulation { id: id.into(), source })?;
+        .map_err(|source| RunError::Simulation { id: id.into(), source })?;
     Ok(finished.then_some(event))
-}
-
-/// What an agent saw and believed before each step of a recorded event, and after the last.
-#[must_use]
-pub fn beliefs(event: &Event, agent: AgentId, settings: &SimulationSettings) -> Vec<BeliefSnapshot> {
-    phase_sim::beliefs(event, agent, &settings.minds)
 }

@@ -1,14 +1,12 @@
 //! Producing the files of one event: simulate it or take it from the cache, write its JSON and its video.
 
 use crate::{
-    context::Context,
     engine::{self, GENERATOR},
-    error::CliError,
+    error::RunError,
     interrupt,
+    listener::{Listener, Progress},
     picture::{self, RenderedState},
-    progress::Progress,
 };
-use core::ops::ControlFlow;
 use phase_dataset::event_cache::EventCache;
 use phase_event::{Event, Recording};
 use phase_files::{
@@ -27,12 +25,11 @@ use std::{
 };
 
 /// What all events of a run have in common.
-#[derive(Debug)]
 pub struct EventWriter {
     settings: SimulationSettings,
     settings_value: Value,
     cache: EventCache,
-    progress: Progress,
+    progress: Box<dyn Progress>,
 }
 
 /// What makes one event different from the others.
@@ -56,17 +53,17 @@ impl EventWriter {
     /// A production of `events` events in a folder. `activity` describes it in the progress display.
     ///
     /// # Errors
-    /// [`CliError::Serialise`].
+    /// [`RunError::Serialise`].
     pub fn new(
-        context: &Context,
+        listener: &dyn Listener,
         activity: &str,
         folder: &Folder,
         settings: SimulationSettings,
         events: usize,
-    ) -> Result<Self, CliError> {
+    ) -> Result<Self, RunError> {
         let settings_value = settings_value(&settings)?;
         let cache = EventCache::new(&folder.cache(), fingerprint(&settings_value));
-        let progress = context.progress(activity, events, settings.max_steps);
+        let progress = listener.progress(activity, events, settings.max_steps);
         Ok(Self { settings, settings_value, cache, progress })
     }
 
@@ -74,12 +71,12 @@ impl EventWriter {
     /// event is not in the cache.
     ///
     /// # Errors
-    /// Any of [`CliError`]'s failures.
+    /// Any of [`RunError`]'s failures.
     pub fn make(
         &self,
         job: &EventJob,
-        scene: impl FnOnce() -> Result<Scene, CliError>,
-    ) -> Result<Option<Event>, CliError> {
+        scene: impl FnOnce() -> Result<Scene, RunError>,
+    ) -> Result<Option<Event>, RunError> {
         let id = &job.id;
         let begun = Instant::now();
         let mut steps = 0;
@@ -90,8 +87,8 @@ impl EventWriter {
             None => {
                 let mut on_step = |_: &_| {
                     steps += 1;
-                    self.progress.step();
-                    if interrupt::requested() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+                    self.progress.steps(1);
+                    interrupt::goes_on()
                 };
                 let simulated = engine::simulate(id, &scene()?, job.seed, &self.settings, &mut on_step)?;
                 let Some(event) = simulated else { return Ok(None) };
@@ -115,7 +112,7 @@ impl EventWriter {
     ///
     /// # Errors
     /// If drawing or writing fails.
-    pub fn write(&self, job: &EventJob, event: &Event, fresh: bool) -> Result<(), CliError> {
+    pub fn write(&self, job: &EventJob, event: &Event, fresh: bool) -> Result<(), RunError> {
         self.write_json(job, event)?;
         match &job.video {
             Some(path) if fresh || !path.exists() => write_video(path, &job.id, event),
@@ -128,7 +125,7 @@ impl EventWriter {
         self.progress.event(counted, line);
     }
 
-    fn write_json(&self, job: &EventJob, event: &Event) -> Result<(), CliError> {
+    fn write_json(&self, job: &EventJob, event: &Event) -> Result<(), RunError> {
         let (generator, mut settings) = (GENERATOR.into(), self.settings_value.clone());
         if let Some((min, max)) = job.lengths {
             (settings["min_steps"], settings["max_steps"]) = (min.into(), max.into());
@@ -146,16 +143,16 @@ impl EventWriter {
 /// Settings as stored in files.
 ///
 /// # Errors
-/// [`CliError::Serialise`].
-pub fn settings_value(settings: &SimulationSettings) -> Result<Value, CliError> {
-    serde_json::to_value(settings).map_err(|source| CliError::Serialise { what: "settings", source })
+/// [`RunError::Serialise`].
+pub fn settings_value(settings: &SimulationSettings) -> Result<Value, RunError> {
+    serde_json::to_value(settings).map_err(|source| RunError::Serialise { what: "settings", source })
 }
 
 /// Writes the video of a simulated event, a frame for each substep.
 ///
 /// # Errors
 /// As [`picture::write_video`].
-pub fn write_video(path: &Path, id: &str, event: &Event) -> Result<(), CliError> {
+pub fn write_video(path: &Path, id: &str, event: &Event) -> Result<(), RunError> {
     Ok(atomic::write(path, &video(id, event)?)?)
 }
 
@@ -163,7 +160,7 @@ pub fn write_video(path: &Path, id: &str, event: &Event) -> Result<(), CliError>
 ///
 /// # Errors
 /// As [`picture::video`].
-pub fn video(id: &str, event: &Event) -> Result<Vec<u8>, CliError> {
+pub fn video(id: &str, event: &Event) -> Result<Vec<u8>, RunError> {
     let items = event.frames().map(|&state| RenderedState { state, minds: Vec::new(), observer: None });
     // Events that are generated are short: a video takes a second.
     let video = picture::video(id, &event.scene.physics(), Palette::PAPER, items, &|| false)?;

@@ -1,10 +1,9 @@
-//! `export`: a dataset as WebDataset, tar files that training programs read from the first byte to the last.
+//! Export of a dataset as WebDataset: tar files that training programs read from the first byte to the last.
 //!
 //! A sample is an event: `<id>.mp4`, `<id>.json` with its labels, the entry of the manifest, and `<id>.phase-events`, its file
 //! of the format `phase-events/1`.
 
-use crate::{console, context::Context, error::CliError, interrupt, output::Output};
-use clap::{Args, value_parser};
+use crate::{error::RunError, interrupt, listener::Listener, words};
 use phase_dataset::{
     manifest::{EventEntry, MANIFEST_FILE, Manifest},
     splits::Split,
@@ -17,10 +16,7 @@ use phase_files::{
     run::Run,
 };
 use serde_json::{Value, json};
-use std::{
-    fs,
-    path::{Path, PathBuf},
-};
+use std::{fs, path::Path};
 use tar::{Builder, Header};
 
 /// The list of all tar files; written last.
@@ -28,76 +24,71 @@ const INDEX_FILE: &str = "index.json";
 /// The value of its field `format`.
 const INDEX_FORMAT: &str = "phase-webdataset/1";
 
-/// Options of `export`.
-#[derive(Args, Debug)]
-pub struct Export {
-    /// Folder of a finished dataset
-    #[arg(value_name = "DIR")]
-    pub folder: PathBuf,
-    /// Folder for the tar files; new, empty, or of the same export
-    #[arg(long, value_name = "DIR")]
-    pub out: PathBuf,
-    /// Events in a tar file
-    #[arg(long, value_name = "N", default_value_t = 500, value_parser = value_parser!(u32).range(1..=1_000_000))]
-    pub events_per_file: u32,
-    /// How the result is printed.
-    #[command(flatten)]
-    pub output: Output,
+/// An export that is there.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Exported {
+    /// The tar files: `file`, `split` and `events` of each.
+    pub files: Vec<Value>,
+    /// Whether it was made now.
+    pub is_new: bool,
 }
 
-/// Runs the command. The same dataset gives the same bytes; tar files that are complete are kept after an interruption.
+/// Exports the finished dataset in a folder into another, which is new, empty, or of the same export: this number of events to a
+/// tar file. The same dataset gives the same bytes; tar files that are complete are kept after an interruption.
 ///
 /// # Errors
-/// Any [`CliError`].
-pub fn run(arguments: &Export, context: &Context) -> Result<(), CliError> {
-    let (from, out) = (&arguments.folder, &arguments.out);
+/// If the dataset or the folder cannot be used, a file cannot be written, or a stop was requested.
+pub fn export(
+    from: &Path,
+    out: &Path,
+    events_per_file: usize,
+    listener: &dyn Listener,
+) -> Result<Exported, RunError> {
     let manifest_file = from.join(MANIFEST_FILE);
     if !from.exists() {
-        return Err(CliError::Usage(format!("{}: does not exist", from.display())));
+        return Err(RunError::Usage(format!("{}: does not exist", from.display())));
     }
     if !manifest_file.is_file() {
-        return Err(CliError::NotADataset(from.clone()));
+        return Err(RunError::NotADataset(from.to_owned()));
     }
     let manifest = Manifest::read(&manifest_file)?;
     let digest = FileEntry::of(from, MANIFEST_FILE)?.sha256;
     let run = Run::new([
         ("command", "export".into()),
         ("manifest_sha256", digest.into()),
-        ("events_per_file", arguments.events_per_file.into()),
+        ("events_per_file", events_per_file.into()),
     ]);
     match folder::inspect(out, INDEX_FILE)? {
         Contents::Finished => {
             let index: Value = phase_files::json::read(&out.join(INDEX_FILE))?;
             run.check(out, "a finished", &index["run"])?;
             folder::remove_leftovers(out, &run)?;
-            return announce(arguments, &index, false);
+            let files = index["files"].as_array().cloned().unwrap_or_default();
+            return Ok(Exported { files, is_new: false });
         }
         Contents::Unfinished(other) => {
             run.check(out, "an unfinished", &other)?;
-            context.note(format!("continuing in {}", out.display()));
+            listener.note(&format!("continuing in {}", out.display()));
         }
         Contents::Nothing => {}
     }
-    interrupt::listen();
     let folder = Folder::claim(out, &run)?;
-    let progress = context.progress_over(
-        &format!("exporting {}", console::events(manifest.events.len())),
-        manifest.events.len(),
-    );
+    let progress = listener
+        .progress_over(&format!("exporting {}", words::events(manifest.events.len())), manifest.events.len());
     let mut files = Vec::new();
     for split in Split::ALL {
         let events: Vec<&EventEntry> =
             manifest.events.iter().filter(|entry| entry.split() == split).collect();
-        for (k, events) in events.chunks(arguments.events_per_file as usize).enumerate() {
+        for (k, events) in events.chunks(events_per_file).enumerate() {
             let name = format!("{}-{k:05}.tar", split.name());
             if !out.join(&name).exists() {
                 write(from, &out.join(&name), events)?;
             }
             if interrupt::requested() {
-                return Err(CliError::Interrupted(out.clone()));
+                return Err(RunError::Interrupted(out.to_owned()));
             }
             progress.steps(events.len());
-            let entry = FileEntry::of(out, name).map_err(CliError::ReadBack)?;
+            let entry = FileEntry::of(out, name).map_err(RunError::ReadBack)?;
             files.push(json!({ "file": entry, "split": split, "events": events.len() }));
         }
     }
@@ -105,26 +96,16 @@ pub fn run(arguments: &Export, context: &Context) -> Result<(), CliError> {
     let index = json!({ "format": INDEX_FORMAT, "run": run, "files": files });
     atomic::write_json(&out.join(INDEX_FILE), &index)?;
     folder.finish()?;
-    announce(arguments, &index, true)
-}
-
-fn announce(arguments: &Export, index: &Value, new: bool) -> Result<(), CliError> {
-    let (out, count) = (&arguments.out, index["files"].as_array().map_or(0, Vec::len));
-    let text = if new {
-        format!("{count} tar files in {}", out.display())
-    } else {
-        format!("{} holds this export already", out.display())
-    };
-    arguments.output.print(text, &json!({ "folder": out, "files": index["files"], "new": new }))
+    Ok(Exported { files, is_new: true })
 }
 
 /// Writes one tar file.
-fn write(from: &Path, path: &Path, events: &[&EventEntry]) -> Result<(), CliError> {
+fn write(from: &Path, path: &Path, events: &[&EventEntry]) -> Result<(), RunError> {
     let failed = |source| WriteError { path: path.to_owned(), action: "write the file", source };
     let mut tar = Builder::new(AtomicFile::create(path)?);
     for entry in events {
         let mut labels =
-            serde_json::to_value(entry).map_err(|source| CliError::Serialise { what: "labels", source })?;
+            serde_json::to_value(entry).map_err(|source| RunError::Serialise { what: "labels", source })?;
         // Loaders infer signed integers, which some seeds exceed.
         labels["seed"] = entry.seed.to_string().into();
         let id = &entry.id;
@@ -149,8 +130,8 @@ fn append(tar: &mut Builder<AtomicFile>, name: &str, bytes: &[u8]) -> std::io::R
 }
 
 /// The bytes of a file that is as its dataset's manifest says.
-fn whole(from: &Path, file: &FileEntry) -> Result<Vec<u8>, CliError> {
-    file.verify(from).map_err(CliError::Altered)?;
+fn whole(from: &Path, file: &FileEntry) -> Result<Vec<u8>, RunError> {
+    file.verify(from).map_err(RunError::Altered)?;
     let path = file.place(from);
     fs::read(&path).map_err(|error| FileError { file: path, problem: Problem::Unreadable(error) }.into())
 }

@@ -1,7 +1,7 @@
 //! Writing the pages on which events can be watched, one after the other, so that no more than the events of one page are in
 //! memory.
 
-use crate::error::CliError;
+use crate::error::RunError;
 use phase_dataset::manifest::{EventEntry, PAGE_FILE};
 use phase_files::{WriteError, atomic};
 use phase_report::gallery::{EVENTS_PER_PAGE, Gallery, PAGES_FOLDER, PageSummary, Timeline};
@@ -27,8 +27,8 @@ impl<'a> GalleryWriter<'a> {
     /// Adds an event; writes a page when it is full.
     ///
     /// # Errors
-    /// [`CliError::Write`].
-    pub fn push(&mut self, entry: EventEntry, timeline: Timeline) -> Result<(), CliError> {
+    /// [`RunError::Write`].
+    pub fn push(&mut self, entry: EventEntry, timeline: Timeline) -> Result<(), RunError> {
         self.events.push(entry);
         self.timelines.push(timeline);
         if self.events.len() == EVENTS_PER_PAGE { self.write_page() } else { Ok(()) }
@@ -37,8 +37,8 @@ impl<'a> GalleryWriter<'a> {
     /// Writes what is left, and returns the names of all files.
     ///
     /// # Errors
-    /// [`CliError::Write`].
-    pub fn finish(mut self) -> Result<Vec<String>, CliError> {
+    /// [`RunError::Write`].
+    pub fn finish(mut self) -> Result<Vec<String>, RunError> {
         if !self.events.is_empty() {
             self.write_page()?;
         }
@@ -50,7 +50,7 @@ impl<'a> GalleryWriter<'a> {
         Ok(files)
     }
 
-    fn write_page(&mut self) -> Result<(), CliError> {
+    fn write_page(&mut self) -> Result<(), RunError> {
         let number = self.pages.len();
         if number == 0 && !self.gallery.is_one_page() {
             let path = self.out.join(PAGES_FOLDER);

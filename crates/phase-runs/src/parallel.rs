@@ -1,43 +1,31 @@
 //! Many events at once, with results in order.
 
-use crate::{error::CliError, interrupt};
-use clap::{Args, value_parser};
+use crate::{error::RunError, interrupt};
 use rayon::{
     ThreadPool, ThreadPoolBuilder,
     iter::{IntoParallelIterator, ParallelIterator},
 };
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// Number of events at once.
-#[derive(Args, Clone, Debug)]
-pub struct Jobs {
-    /// Events to work on at once; results do not depend on it [default: all cores]
-    #[arg(long, value_name = "J", value_parser = value_parser!(u16).range(1..=1024))]
-    pub jobs: Option<u16>,
+/// A number of threads, or without one that of this machine's cores.
+#[must_use]
+pub fn threads(number: Option<usize>) -> usize {
+    number.unwrap_or_else(|| std::thread::available_parallelism().map_or(1, Into::into))
 }
 
-impl Jobs {
-    /// The number of threads.
-    #[must_use]
-    pub fn threads(&self) -> usize {
-        let cores = || std::thread::available_parallelism().map_or(1, Into::into);
-        self.jobs.map_or_else(cores, usize::from)
-    }
-}
-
-/// Makes `count` items on the requested number of threads. `make` returns `None` when it was interrupted;
+/// Makes `count` items on a number of threads. `make` returns `None` when it was interrupted;
 /// then, and after the first failure, no new item is begun.
 ///
 /// # Errors
-/// The failure of the item with the lowest number, or [`CliError::Threads`]. `Ok(None)` means interrupted.
+/// The failure of the item with the lowest number, or [`RunError::Threads`]. `Ok(None)` means interrupted.
 pub fn make_all<T: Send>(
-    jobs: &Jobs,
+    threads: usize,
     count: usize,
-    make: impl Fn(usize) -> Result<Option<T>, CliError> + Sync,
-) -> Result<Option<Vec<T>>, CliError> {
-    let pool = pool(jobs.threads().min(count.max(1)))?;
+    make: impl Fn(usize) -> Result<Option<T>, RunError> + Sync,
+) -> Result<Option<Vec<T>>, RunError> {
+    let pool = pool(threads.min(count.max(1)))?;
     let failed = AtomicBool::new(false);
-    let results: Vec<Result<Option<T>, CliError>> = pool.install(|| {
+    let results: Vec<Result<Option<T>, RunError>> = pool.install(|| {
         let one = |index| {
             if failed.load(Ordering::Relaxed) || interrupt::requested() {
                 return Ok(None);
@@ -65,13 +53,13 @@ pub fn make_all<T: Send>(
 /// Runs `work` once on each of a number of threads.
 ///
 /// # Errors
-/// [`CliError::Threads`].
-pub fn on_threads(threads: usize, work: impl Fn() + Sync) -> Result<(), CliError> {
+/// [`RunError::Threads`].
+pub fn on_threads(threads: usize, work: impl Fn() + Sync) -> Result<(), RunError> {
     pool(threads)?.broadcast(|_| work());
     Ok(())
 }
 
-fn pool(threads: usize) -> Result<ThreadPool, CliError> {
+fn pool(threads: usize) -> Result<ThreadPool, RunError> {
     let pool = ThreadPoolBuilder::new().num_threads(threads).build();
-    pool.map_err(|source| CliError::Threads { jobs: threads, source })
+    pool.map_err(|source| RunError::Threads { jobs: threads, source })
 }

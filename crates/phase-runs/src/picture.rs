@@ -1,6 +1,6 @@
 //! Events as videos and contact sheets in files.
 
-use crate::error::CliError;
+use crate::error::RunError;
 use phase_event::Event;
 use phase_files::atomic;
 use phase_model::{AgentId, PhysicsConfig, State, arena::FRAMES_PER_SECOND};
@@ -12,7 +12,7 @@ use phase_render::{
 use std::path::Path;
 
 /// Side of each frame of a contact sheet (pixels).
-pub(crate) const SHEET_SIDE: u32 = 320;
+pub const SHEET_SIDE: u32 = 320;
 /// Lines of text below frames that show an agent's decisions.
 const CAPTION_LINES: u32 = crate::captions::COUNT as u32;
 /// Height of an observer's course, in lines of text.
@@ -62,7 +62,7 @@ pub struct RenderedState<'a> {
 /// `false`, and leaves no file, if `interrupted`, which is called before each frame, returns `true`.
 ///
 /// # Errors
-/// [`CliError::Write`] or [`CliError::Render`]; then there is no file.
+/// [`RunError::Write`] or [`RunError::Render`]; then there is no file.
 pub fn write_video<'a>(
     path: &Path,
     id: &str,
@@ -70,7 +70,7 @@ pub fn write_video<'a>(
     palette: Palette,
     items: impl IntoIterator<Item = RenderedState<'a>>,
     interrupted: &dyn Fn() -> bool,
-) -> Result<bool, CliError> {
+) -> Result<bool, RunError> {
     match video(id, physics, palette, items, interrupted)? {
         Some(mp4) => Ok(atomic::write(path, &mp4).map(|()| true)?),
         None => Ok(false),
@@ -80,14 +80,14 @@ pub fn write_video<'a>(
 /// The same video in memory; `None` if it was interrupted.
 ///
 /// # Errors
-/// [`CliError::Render`].
+/// [`RunError::Render`].
 pub fn video<'a>(
     id: &str,
     physics: &PhysicsConfig,
     palette: Palette,
     items: impl IntoIterator<Item = RenderedState<'a>>,
     interrupted: &dyn Fn() -> bool,
-) -> Result<Option<Vec<u8>>, CliError> {
+) -> Result<Option<Vec<u8>>, RunError> {
     let mp4 = || -> Result<Option<Vec<u8>>, RenderError> {
         let mut items = items.into_iter();
         let first = items.next().ok_or(RenderError::NoFrames("video"))?;
@@ -104,22 +104,22 @@ pub fn video<'a>(
         }
         video.finish().map(Some)
     };
-    mp4().map_err(|source| CliError::Render { id: id.into(), source })
+    mp4().map_err(|source| RunError::Render { id: id.into(), source })
 }
 
 /// Writes a video of several events beside each other, smaller, until the longest ends.
 ///
 /// # Errors
 /// As [`write_video`].
-pub fn write_side_by_side(path: &Path, id: &str, events: &[&Event]) -> Result<(), CliError> {
+pub fn write_side_by_side(path: &Path, id: &str, events: &[&Event]) -> Result<(), RunError> {
     Ok(atomic::write(path, &beside(id, events)?)?)
 }
 
 /// The same video in memory.
 ///
 /// # Errors
-/// [`CliError::Render`].
-pub fn beside(id: &str, events: &[&Event]) -> Result<Vec<u8>, CliError> {
+/// [`RunError::Render`].
+pub fn beside(id: &str, events: &[&Event]) -> Result<Vec<u8>, RunError> {
     let mp4 = || -> Result<Vec<u8>, RenderError> {
         let style = Style::with_side(SHEET_SIDE);
         let renderers = events.iter().map(|event| SceneRenderer::new(&event.scene.physics(), style));
@@ -145,13 +145,13 @@ pub fn beside(id: &str, events: &[&Event]) -> Result<Vec<u8>, CliError> {
         }
         video.ok_or(RenderError::NoFrames("video"))?.finish()
     };
-    mp4().map_err(|source| CliError::Render { id: id.into(), source })
+    mp4().map_err(|source| RunError::Render { id: id.into(), source })
 }
 
 /// Writes one picture of `count` frames evenly spaced from the first to the last.
 ///
 /// # Errors
-/// [`CliError::Write`] or [`CliError::Render`]; then there is no file.
+/// [`RunError::Write`] or [`RunError::Render`]; then there is no file.
 pub fn write_sheet(
     path: &Path,
     id: &str,
@@ -159,7 +159,7 @@ pub fn write_sheet(
     palette: Palette,
     items: &[RenderedState<'_>],
     count: usize,
-) -> Result<(), CliError> {
+) -> Result<(), RunError> {
     let png = || -> Result<Vec<u8>, RenderError> {
         let renderer = SceneRenderer::new(physics, style(Style::with_side(SHEET_SIDE), palette, items))?;
         let count = count.min(items.len());
@@ -170,7 +170,7 @@ pub fn write_sheet(
         let columns = columns(count);
         contact_sheet(&frames, columns)?.png()
     };
-    let png = png().map_err(|source| CliError::Render { id: id.into(), source })?;
+    let png = png().map_err(|source| RunError::Render { id: id.into(), source })?;
     Ok(atomic::write(path, &png)?)
 }
 

@@ -1,11 +1,11 @@
 //! The shortcut audit of a dataset or of other events: what a standard classifier tells without looking at motion.
 
 use crate::{
-    console,
-    context::Context,
-    error::CliError,
-    parallel::{Jobs, make_all},
+    error::RunError,
+    listener::{Listener, Silent},
+    parallel::{self, make_all},
     source::EventInput,
+    words,
 };
 use phase_audit::{Audit, AuditItem, MAX_EVENTS, Target, audit};
 use serde_json::{Value, json};
@@ -17,13 +17,17 @@ const MAX_EXCESS: f64 = 0.06;
 /// Audits the events of a file or folder; `None` if they are too few.
 ///
 /// # Errors
-/// If an event cannot be used; [`CliError::Threads`].
-pub fn audited(path: &Path, jobs: &Jobs, context: &Context) -> Result<Option<Audit>, CliError> {
+/// If an event cannot be used; [`RunError::Threads`].
+pub fn audited(
+    path: &Path,
+    threads: Option<usize>,
+    listener: &dyn Listener,
+) -> Result<Option<Audit>, RunError> {
     // Warnings about events have been printed by whoever read them first.
-    let source = EventInput::open(path, &[], &context.quiet())?;
+    let source = EventInput::open(path, &[], &Silent)?;
     let count = source.len().min(MAX_EVENTS);
-    let progress = context.progress_over(&format!("auditing {}", console::events(count)), count);
-    let items = make_all(jobs, count, |index| {
+    let progress = listener.progress_over(&format!("auditing {}", words::events(count)), count);
+    let items = make_all(parallel::threads(threads), count, |index| {
         let item = AuditItem::of(source.load(index)?.as_ref());
         progress.steps(1);
         Ok(Some(item))
@@ -44,7 +48,7 @@ pub fn section(audit: Option<&Audit>, events: usize) -> String {
             };
             format!("\n{}{some}.\n\n{}", capital(&phase_audit::summary(audit)), phase_audit::table(audit))
         }
-        None => format!("\nNo shortcut audit: {} are too few.\n", console::events(events)),
+        None => format!("\nNo shortcut audit: {} are too few.\n", words::events(events)),
     }
 }
 

@@ -1,6 +1,6 @@
 //! Where events come from: a file, or the folder of a dataset.
 
-use crate::{context::Context, error::CliError};
+use crate::{error::RunError, listener::Listener};
 use phase_dataset::{
     manifest::{MANIFEST_FILE, Manifest},
     phase_events,
@@ -22,13 +22,13 @@ use std::{
 ///
 /// # Errors
 /// If it holds a number that is not finite.
-pub(crate) fn labels_and_rows(recording: &Recording) -> Result<Value, CliError> {
+pub(crate) fn labels_and_rows(recording: &Recording) -> Result<Value, RunError> {
     const MEMBERS: [&str; 7] =
         ["layout", "agents", "objects", "event", "relation", "relation_human", "trajectory"];
     let without_simulation = Recording { simulation: None, ..recording.clone() };
     let text = without_simulation.to_json()?;
     let event: Value = serde_json::from_str(&text)
-        .map_err(|source| CliError::Serialise { what: "the labels of an event", source })?;
+        .map_err(|source| RunError::Serialise { what: "the labels of an event", source })?;
     Ok(MEMBERS.iter().map(|&member| (member.to_owned(), event[member].clone())).collect())
 }
 
@@ -58,16 +58,16 @@ impl EventInput {
     /// # Errors
     /// If there is nothing of the kind, or no event of one of the ids. Files of a folder are only read when
     /// they are loaded.
-    pub fn open(path: &Path, ids: &[String], context: &Context) -> Result<Self, CliError> {
+    pub fn open(path: &Path, ids: &[String], listener: &dyn Listener) -> Result<Self, RunError> {
         if !path.is_dir() {
-            return read(path, ids, context).map(Self::Loaded);
+            return read(path, ids, listener).map(Self::Loaded);
         }
         let is_dataset = path.join(MANIFEST_FILE).is_file();
         if !is_dataset && path.join(SHARD_FILE).is_file() {
-            return Err(CliError::Usage(format!("{}: is a shard; merge all shards first", path.display())));
+            return Err(RunError::Usage(format!("{}: is a shard; merge all shards first", path.display())));
         }
         if !is_dataset && !path.join(SUMMARY_FILE).is_file() {
-            return of_files(path, ids, context);
+            return of_files(path, ids, listener);
         }
         let files: Vec<(String, RelativePath)> = if !is_dataset {
             let summary = SimulationSummary::read(&path.join(SUMMARY_FILE))?;
@@ -128,7 +128,7 @@ impl EventInput {
     ///
     /// # Errors
     /// If its file cannot be used.
-    pub fn load(&self, index: usize) -> Result<Cow<'_, Recording>, CliError> {
+    pub fn load(&self, index: usize) -> Result<Cow<'_, Recording>, RunError> {
         match self {
             Self::Loaded(recordings) => Ok(Cow::Borrowed(&recordings[index].1)),
             Self::Files(files) => {
@@ -137,7 +137,7 @@ impl EventInput {
                 let ids: Vec<String> = recordings.iter().map(|recording| recording.id.clone()).collect();
                 let found = recordings.into_iter().find(|recording| recording.id == *id);
                 let found = found.map(Cow::Owned);
-                found.ok_or_else(|| CliError::unknown_id(path, id, ids.iter().map(String::as_str)))
+                found.ok_or_else(|| RunError::unknown_id(path, id, ids.iter().map(String::as_str)))
             }
         }
     }
@@ -151,22 +151,26 @@ fn wanted(id: &String, ids: &[String]) -> bool {
 /// about them are printed.
 ///
 /// # Errors
-/// If the file cannot be used, or [`CliError::UnknownId`].
-pub fn read(file: &Path, ids: &[String], context: &Context) -> Result<Vec<(usize, Recording)>, CliError> {
+/// If the file cannot be used, or [`RunError::UnknownId`].
+pub fn read(
+    file: &Path,
+    ids: &[String],
+    listener: &dyn Listener,
+) -> Result<Vec<(usize, Recording)>, RunError> {
     let recordings = phase_events::read(file)?;
     check_ids(file, recordings.iter().map(|recording| recording.id.as_str()), ids)?;
     let chosen: Vec<_> =
         recordings.into_iter().enumerate().filter(|(_, recording)| wanted(&recording.id, ids)).collect();
     for (_, recording) in &chosen {
         for warning in recording.warnings() {
-            context.note(format!("warning: {}: event {}: {warning}", file.display(), recording.id));
+            listener.note(&format!("warning: {}: event {}: {warning}", file.display(), recording.id));
         }
     }
     Ok(chosen)
 }
 
 /// The events of all event files of a folder, in the order of their names.
-fn of_files(folder: &Path, ids: &[String], context: &Context) -> Result<EventInput, CliError> {
+fn of_files(folder: &Path, ids: &[String], listener: &dyn Listener) -> Result<EventInput, RunError> {
     let unreadable = |error| FileError { file: folder.to_owned(), problem: Problem::Unreadable(error) };
     let mut files = Vec::new();
     for entry in fs::read_dir(folder).map_err(unreadable)? {
@@ -178,15 +182,15 @@ fn of_files(folder: &Path, ids: &[String], context: &Context) -> Result<EventInp
     }
     files.sort();
     if files.is_empty() {
-        return Err(CliError::NotADataset(folder.to_owned()));
+        return Err(RunError::NotADataset(folder.to_owned()));
     }
     let mut recordings = Vec::new();
     let mut known = BTreeSet::new();
     for file in files {
-        for (_, recording) in read(&file, &[], context)? {
+        for (_, recording) in read(&file, &[], listener)? {
             if !known.insert(recording.id.to_ascii_lowercase()) {
                 let (file, id) = (file.display(), &recording.id);
-                return Err(CliError::Usage(format!(
+                return Err(RunError::Usage(format!(
                     "{file}: another file of the folder has an event {id}, too"
                 )));
             }
@@ -202,9 +206,9 @@ fn check_ids<'a>(
     file: &Path,
     known: impl Iterator<Item = &'a str> + Clone,
     ids: &[String],
-) -> Result<(), CliError> {
+) -> Result<(), RunError> {
     match ids.iter().find(|id| known.clone().all(|other| other != *id)) {
-        Some(id) => Err(CliError::unknown_id(file, id, known)),
+        Some(id) => Err(RunError::unknown_id(file, id, known)),
         None => Ok(()),
     }
 }

@@ -3,6 +3,7 @@
 use crate::draw_behaviour::DrawError;
 use phase_calibration::ReadError;
 use phase_cli::{error::CliError, program::Failure};
+use phase_runs::error::RunError;
 use std::path::PathBuf;
 use thiserror::Error;
 
@@ -12,6 +13,9 @@ pub enum LabError {
     /// Code that the lab shares with the commands of `phase` failed.
     #[error(transparent)]
     Cli(#[from] CliError),
+    /// A run on many events failed.
+    #[error(transparent)]
+    Run(#[from] RunError),
     /// A file of probes or runs cannot be used.
     #[error("{}: {source}", file.display())]
     Calibration {
@@ -35,6 +39,7 @@ impl Failure for LabError {
     fn exit_code(&self) -> u8 {
         match self {
             Self::Cli(error) => error.exit_code(),
+            Self::Run(error) => error.exit_code(),
             Self::Calibration { .. } => 2,
             Self::Interrupted => 130,
             Self::Draw(_) | Self::IntentNetwork(_) => 1,

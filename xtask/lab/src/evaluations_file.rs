@@ -1,8 +1,8 @@
 //! A file in which evaluations are kept, so that an interrupted fit goes on where it was: one JSON object a
 //! line.
 
-use phase_cli::error::CliError;
 use phase_files::{FileError, Problem, WriteError};
+use phase_runs::error::RunError;
 use serde::{Deserialize, Serialize, de::DeserializeOwned};
 use std::{
     fs::{File, OpenOptions, read_to_string},
@@ -36,13 +36,13 @@ impl EvaluationsFile {
     ///
     /// # Errors
     /// If it cannot be read or written.
-    pub(crate) fn beside<T: DeserializeOwned>(out: &Path) -> Result<(Self, Vec<Line<T>>), CliError> {
+    pub(crate) fn beside<T: DeserializeOwned>(out: &Path) -> Result<(Self, Vec<Line<T>>), RunError> {
         let path = out.with_extension("evaluations.jsonl");
         let text = match read_to_string(&path) {
             Ok(text) => text,
             Err(error) if error.kind() == io::ErrorKind::NotFound => String::new(),
             Err(error) => {
-                return Err(CliError::File(FileError { file: path, problem: Problem::Unreadable(error) }));
+                return Err(RunError::File(FileError { file: path, problem: Problem::Unreadable(error) }));
             }
         };
         let lines = text.lines().filter_map(|line| serde_json::from_str(line).ok()).collect();
@@ -63,16 +63,16 @@ impl EvaluationsFile {
     ///
     /// # Errors
     /// If it cannot be written.
-    pub(crate) fn add<T: Serialize>(&self, line: &Line<T>) -> Result<(), CliError> {
+    pub(crate) fn add<T: Serialize>(&self, line: &Line<T>) -> Result<(), RunError> {
         let text = serde_json::to_string(line);
-        let text = text.map_err(|source| CliError::Serialise { what: "an evaluation", source })? + "\n";
+        let text = text.map_err(|source| RunError::Serialise { what: "an evaluation", source })? + "\n";
         let mut file = self.file.lock().unwrap_or_else(PoisonError::into_inner);
         file.write_all(text.as_bytes()).map_err(|source| failed(&self.path, source))
     }
 }
 
-fn failed(path: &Path, source: io::Error) -> CliError {
-    CliError::Write(WriteError { path: path.to_owned(), action: "write the file", source })
+fn failed(path: &Path, source: io::Error) -> RunError {
+    RunError::Write(WriteError { path: path.to_owned(), action: "write the file", source })
 }
 
 #[cfg(test)]

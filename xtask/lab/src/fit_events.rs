@@ -9,16 +9,10 @@ use crate::{
 };
 use clap::{Args, value_parser};
 use core::ops::ControlFlow;
-use phase_cli::{
-    console,
-    context::Context,
-    error::CliError,
-    event_writer::program,
-    interrupt,
-    parallel::{Jobs, make_all},
-};
+use phase_cli::{context::Context, parallel::Jobs};
 use phase_event::Recording;
 use phase_files::checksum::{hexadecimal, sha256};
+use phase_runs::{error::RunError, event_writer::program, interrupt::requested, parallel::make_all, words};
 use serde::{Serialize, de::DeserializeOwned};
 use std::{
     collections::BTreeMap,
@@ -59,7 +53,7 @@ impl FitEvents {
     pub(crate) fn check_out<'a>(
         &'a self,
         others: impl IntoIterator<Item = &'a PathBuf>,
-    ) -> Result<(), CliError> {
+    ) -> Result<(), RunError> {
         let Some(out) = &self.out else { return Ok(()) };
         let inputs = self.events.iter().chain(&self.held_out).chain(others);
         json_file::check("--out", out, inputs.map(|file| file.as_path()))
@@ -69,7 +63,7 @@ impl FitEvents {
     ///
     /// # Errors
     /// If it has none, or they cannot be read.
-    pub(crate) fn read(&self, file: &Path, context: &Context) -> Result<Vec<Recording>, CliError> {
+    pub(crate) fn read(&self, file: &Path, context: &Context) -> Result<Vec<Recording>, RunError> {
         let mut recordings = check_minds::recordings(file, None, context)?;
         recordings.truncate(self.limit.map_or(usize::MAX, |limit| limit as usize));
         Ok(recordings)
@@ -79,7 +73,7 @@ impl FitEvents {
     ///
     /// # Errors
     /// As [`FitEvents::read`].
-    pub(crate) fn read_all(&self, files: &[PathBuf], context: &Context) -> Result<Vec<Recording>, CliError> {
+    pub(crate) fn read_all(&self, files: &[PathBuf], context: &Context) -> Result<Vec<Recording>, RunError> {
         let files = files.iter().map(|file| self.read(file, context)).collect::<Result<Vec<_>, _>>()?;
         Ok(files.into_iter().flatten().collect())
     }
@@ -105,7 +99,7 @@ impl<'a, T: Clone + Send + Sync + Serialize + DeserializeOwned> KeptFigures<'a, 
         settings: &str,
         arguments: &'a FitEvents,
         context: &'a Context,
-    ) -> Result<Self, CliError> {
+    ) -> Result<Self, RunError> {
         let made_by = format!("{} {settings} {}", hexadecimal(&program()), arguments.seed);
         let kept = arguments.out.as_deref().map(EvaluationsFile::beside).transpose()?;
         let (file, lines) = kept.map_or_else(|| (None, Vec::new()), |(file, lines)| (Some(file), lines));
@@ -123,17 +117,17 @@ impl<'a, T: Clone + Send + Sync + Serialize + DeserializeOwned> KeptFigures<'a, 
         activity: &str,
         recordings: &[&Recording],
         ticks: usize,
-        compute: impl Fn(&Recording, &mut dyn FnMut() -> ControlFlow<()>) -> Result<Option<T>, CliError> + Sync,
+        compute: impl Fn(&Recording, &mut dyn FnMut() -> ControlFlow<()>) -> Result<Option<T>, RunError> + Sync,
     ) -> Result<Vec<T>, LabError> {
-        let activity = format!("{activity} of {}", console::events(recordings.len()));
+        let activity = format!("{activity} of {}", words::events(recordings.len()));
         let progress = self.context.progress(&activity, recordings.len(), ticks);
-        let made = make_all(&self.arguments.jobs, recordings.len(), |k| {
+        let made = make_all(self.arguments.jobs.threads(), recordings.len(), |k| {
             let mut ticks = 0;
             let figures = self.one(recordings[k], |event| {
                 compute(event, &mut || {
                     ticks += 1;
                     progress.step();
-                    if interrupt::requested() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+                    if requested() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
                 })
             })?;
             if figures.is_some() {
@@ -143,7 +137,7 @@ impl<'a, T: Clone + Send + Sync + Serialize + DeserializeOwned> KeptFigures<'a, 
         })?;
         drop(progress);
         made.ok_or_else(|| match &self.file {
-            Some(file) => CliError::Interrupted(file.path().to_owned()).into(),
+            Some(file) => RunError::Interrupted(file.path().to_owned()).into(),
             None => LabError::Interrupted,
         })
     }
@@ -151,9 +145,9 @@ impl<'a, T: Clone + Send + Sync + Serialize + DeserializeOwned> KeptFigures<'a, 
     fn one(
         &self,
         recording: &Recording,
-        mut compute: impl FnMut(&Recording) -> Result<Option<T>, CliError>,
-    ) -> Result<Option<T>, CliError> {
-        let event = recording.to_json().map_err(CliError::EventWrite)?;
+        mut compute: impl FnMut(&Recording) -> Result<Option<T>, RunError>,
+    ) -> Result<Option<T>, RunError> {
+        let event = recording.to_json().map_err(RunError::EventWrite)?;
         let key = hexadecimal(&sha256(format!("{} {event}", self.made_by).as_bytes()));
         if let Some(known) = self.known.get(&key) {
             return Ok(Some(known.clone()));

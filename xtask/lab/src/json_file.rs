@@ -1,7 +1,7 @@
 //! The file that an option such as `--json FILE` writes.
 
-use phase_cli::error::CliError;
 use phase_files::atomic;
+use phase_runs::error::RunError;
 use std::path::Path;
 
 /// The name that means stdout where a file may be named.
@@ -10,13 +10,13 @@ pub const STDOUT: &str = "-";
 /// Checks that `option` can write to `out` without overwriting one of the inputs.
 ///
 /// # Errors
-/// [`CliError::Usage`].
+/// [`RunError::Usage`].
 pub fn check<'a>(
     option: &str,
     out: &Path,
     mut inputs: impl Iterator<Item = &'a Path>,
-) -> Result<(), CliError> {
-    let usage = |rule: &str| CliError::Usage(format!("{option} {}: {rule}", out.display()));
+) -> Result<(), RunError> {
+    let usage = |rule: &str| RunError::Usage(format!("{option} {}: {rule}", out.display()));
     if out == Path::new(STDOUT) {
         return Ok(());
     }
@@ -37,7 +37,7 @@ pub fn check<'a>(
 /// Writes a result to a file, if one was named: whole, or not at all.
 ///
 /// # Errors
-/// [`CliError::Output`].
-pub(crate) fn write(out: Option<&Path>, text: &str) -> Result<(), CliError> {
-    out.map_or(Ok(()), |out| atomic::write(out, text.as_bytes()).map_err(CliError::Output))
+/// [`RunError::Output`].
+pub(crate) fn write(out: Option<&Path>, text: &str) -> Result<(), RunError> {
+    out.map_or(Ok(()), |out| atomic::write(out, text.as_bytes()).map_err(RunError::Output))
 }

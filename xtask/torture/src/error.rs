@@ -1,6 +1,7 @@
 //! Every way in which a test of promises about files can fail, and its exit code.
 
 use phase_cli::{error::CliError, program::Failure};
+use phase_runs::error::RunError;
 use std::io;
 use thiserror::Error;
 
@@ -10,6 +11,9 @@ pub enum TortureError {
     /// A command of `phase` failed, or code that is shared with them.
     #[error(transparent)]
     Cli(#[from] CliError),
+    /// A run on many events failed.
+    #[error(transparent)]
+    Run(#[from] RunError),
     /// The program that is to be disturbed cannot be started.
     #[error("the program cannot be started: {0}")]
     Start(#[source] io::Error),
@@ -33,6 +37,7 @@ impl Failure for TortureError {
     fn exit_code(&self) -> u8 {
         match self {
             Self::Cli(error) => error.exit_code(),
+            Self::Run(error) => error.exit_code(),
             Self::Interrupted => 130,
             Self::Start(_) | Self::Undisturbed { .. } | Self::Tortured(_) => 1,
         }

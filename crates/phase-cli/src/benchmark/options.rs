@@ -1,13 +1,10 @@
 //! The options of `benchmark`.
 
-use super::plan::METHODS;
 use crate::{effort::mind_kinds, eval::options::Parts, output::Output, parallel::Jobs};
 use clap::{Args, builder::PossibleValuesParser, value_parser};
 use phase_minds::MindKind;
-use std::path::{Path, PathBuf};
-
-/// The default seed.
-const SEED: u64 = 1;
+use phase_runs::benchmark::{BenchmarkRun, SEED, plan::METHODS};
+use std::path::PathBuf;
 
 /// Options of `benchmark`.
 #[derive(Args, Debug)]
@@ -66,27 +63,25 @@ pub struct Benchmark {
     pub jobs: Jobs,
 }
 
-impl Benchmark {
-    /// The options that determine what is measured, as a command line has them; those that are left at their defaults are
-    /// left out.
-    #[must_use]
-    pub fn measured(&self) -> Vec<String> {
-        let path = |path: &Path| path.display().to_string();
-        let paths = |paths: &[PathBuf]| paths.iter().map(|it| path(it)).collect::<Vec<_>>();
-        let one = |value: &Option<PathBuf>| paths(value.as_slice());
-        let all = [
-            ("--data", vec![path(&self.data)]),
-            ("--real", one(&self.real)),
-            ("--ratings", one(&self.ratings)),
-            ("--pairs", one(&self.pairs)),
-            ("--methods", if self.methods.is_empty() { Vec::new() } else { vec![self.methods.join(",")] }),
-            ("--minds", self.minds.iter().map(|minds| minds.name().to_owned()).collect()),
-            ("--trained", paths(&self.trained)),
-            ("--results", paths(&self.results)),
-            ("--limit", self.limit.iter().map(u64::to_string).collect()),
-            ("--seed", if self.seed == SEED { Vec::new() } else { vec![self.seed.to_string()] }),
-        ];
-        let given = all.into_iter().filter(|(_, values)| !values.is_empty());
-        given.flat_map(|(name, values)| [name.to_owned()].into_iter().chain(values)).collect()
+impl From<&Benchmark> for BenchmarkRun {
+    fn from(options: &Benchmark) -> Self {
+        Self {
+            data: options.data.clone(),
+            real: options.real.clone(),
+            ratings: options.ratings.clone(),
+            pairs: options.pairs.clone(),
+            methods: options.methods.clone(),
+            minds: options.minds,
+            trained: options.trained.clone(),
+            results: options.results.clone(),
+            limit: options.limit.map(|limit| limit as usize),
+            seed: options.seed,
+            evaluations: options.evaluations.clone(),
+            out: options.out.clone(),
+            figures: options.figures.clone(),
+            shard: options.parts.shard,
+            merge: options.parts.merge.clone(),
+            threads: options.jobs.given(),
+        }
     }
 }

@@ -1,6 +1,5 @@
 //! The options of `eval`.
 
-use super::methods;
 use crate::{
     effort::{MindOptions, mind_kinds},
     parallel::Jobs,
@@ -13,7 +12,7 @@ use clap::{
 };
 use phase_dataset::splits::Split;
 use phase_minds::MindKind;
-use phase_model::arena::STEP_VIDEO_SECONDS;
+use phase_runs::eval::{Answers, Evaluation, methods};
 use std::path::PathBuf;
 
 /// What to evaluate.
@@ -116,10 +115,53 @@ pub struct Parts {
     pub merge: Vec<PathBuf>,
 }
 
-/// Seconds of video in steps; both are exact, for there are four steps in a second.
-#[must_use]
-pub fn steps_of(seconds: f64) -> usize {
-    (seconds / STEP_VIDEO_SECONDS) as usize
+impl Eval {
+    /// The options of both tasks.
+    pub(super) const fn common(&self) -> &Common {
+        match self {
+            Self::Goals(options) => &options.common,
+            Self::Trajectories(options) => &options.common,
+        }
+    }
+}
+
+impl From<&Eval> for Evaluation {
+    fn from(options: &Eval) -> Self {
+        let common = options.common();
+        let (watched, ratings) = match options {
+            Eval::Goals(options) => (options.watched.clone(), options.ratings.clone()),
+            Eval::Trajectories(_) => (Vec::new(), None),
+        };
+        Self {
+            events: common.events.clone(),
+            split: common.split,
+            limit: common.limit.map(|limit| limit as usize),
+            seed: common.seed,
+            out: common.out.clone(),
+            watched,
+            ratings,
+            shard: common.parts.shard,
+            merge: common.parts.merge.clone(),
+            threads: common.jobs.given(),
+        }
+    }
+}
+
+impl From<&Eval> for Answers {
+    fn from(options: &Eval) -> Self {
+        let (method, weights, minds) = match options {
+            Eval::Goals(options) => (&options.method, &options.weights, options.minds),
+            Eval::Trajectories(options) => (&options.method, &options.weights, options.minds),
+        };
+        match &options.common().predictions {
+            Some(file) => Self::Predictions(file.clone()),
+            None => Self::Method {
+                name: method.clone().unwrap_or_default(),
+                weights: weights.clone(),
+                minds: MindOptions::from(minds).into(),
+            },
+        }
+    }
 }
 
 /// Reads a number of seconds after which an event has a row.

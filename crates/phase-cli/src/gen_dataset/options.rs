@@ -3,6 +3,7 @@
 use crate::{effort::SimulationOptions, output::Output, parallel::Jobs, shard_option::shard};
 use chrono::NaiveDate;
 use clap::{Args, value_parser};
+use phase_runs::gen_dataset::Generation;
 use std::path::PathBuf;
 
 /// Options of `gen-dataset`.
@@ -42,6 +43,22 @@ pub struct GenDataset {
     /// How many threads.
     #[command(flatten)]
     pub jobs: Jobs,
+}
+
+impl From<&GenDataset> for Generation {
+    fn from(options: &GenDataset) -> Self {
+        Self {
+            preset: options.preset.clone(),
+            events: options.events.map(|events| events as usize),
+            seed: options.seed,
+            out: options.out.clone(),
+            videos: !options.no_video,
+            date_published: options.date_published.clone(),
+            shard: options.shard,
+            effort: options.effort.effort(),
+            threads: options.jobs.given(),
+        }
+    }
 }
 
 /// Options of `merge`.

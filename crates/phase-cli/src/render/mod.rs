@@ -3,22 +3,21 @@
 pub mod options;
 mod watch;
 
-use crate::{
-    captions, console,
-    context::Context,
-    engine,
-    error::CliError,
-    interrupt,
-    output::json_text,
-    parallel::make_all,
-    picture::{self, BeliefFrame, ObserverFrame, RenderedState},
-    source::EventInput,
-};
+use crate::{context::Context, error::CliError, interrupt};
 use options::{Belief, Render};
 use phase_event::{Recording, Row, SimulationRecord, Trajectory};
 use phase_files::{WriteError, atomic};
 use phase_model::{AgentId, State, arena::SUBSTEPS};
 use phase_render::Palette;
+use phase_runs::{
+    captions,
+    error::RunError,
+    interrupt::requested,
+    parallel::make_all,
+    picture::{self, BeliefFrame, ObserverFrame, RenderedState},
+    source::EventInput,
+    words,
+};
 use phase_sim::SimulationSettings;
 use serde::Serialize;
 use serde_json::json;
@@ -40,15 +39,15 @@ pub fn run(arguments: &Render, context: &Context) -> Result<(), CliError> {
     if arguments.belief.is_some()
         && let Some(recording) = source.loaded().find(|recording| recording.simulation.is_none())
     {
-        return Err(unsimulated(arguments, &recording.id));
+        return Err(unsimulated(arguments, &recording.id).into());
     }
     interrupt::listen();
-    let progress = context.progress(&format!("rendering {}", console::events(source.len())), source.len(), 1);
-    let made = make_all(&arguments.jobs, source.len(), |index| {
+    let progress = context.progress(&format!("rendering {}", words::events(source.len())), source.len(), 1);
+    let made = make_all(arguments.jobs.threads(), source.len(), |index| {
         let recording = source.load(index)?;
         let path = target.path(&recording.id, arguments, extension);
         let watched = match arguments.observer {
-            true => match watch(&recording, arguments.seed, &interrupt::requested)? {
+            true => match watch(&recording, arguments.seed, &requested)? {
                 Some(watched) => Some(watched),
                 None => return Ok(None),
             },
@@ -64,7 +63,7 @@ pub fn run(arguments: &Render, context: &Context) -> Result<(), CliError> {
         Ok(Some(Rendered { id: recording.id.clone(), file: path, interpolated, observer }))
     })?;
     drop(progress);
-    let made = made.ok_or_else(|| CliError::Interrupted(arguments.out.clone()))?;
+    let made = made.ok_or_else(|| RunError::Interrupted(arguments.out.clone()))?;
     let lines = made.iter().map(Rendered::line).collect::<String>();
     arguments.output.print(lines, &json!({ "files": made }))
 }
@@ -91,13 +90,12 @@ struct ObserverCourse {
 }
 
 impl ObserverCourse {
-    fn write(video: &Path, id: &str, watched: Vec<Watched>) -> Result<Self, CliError> {
+    fn write(video: &Path, id: &str, watched: Vec<Watched>) -> Result<Self, RunError> {
         let name = video.file_stem().unwrap_or_default().to_string_lossy();
         let name = name.strip_suffix(".observer").unwrap_or(&name);
         let file = video.with_file_name(format!("{name}.observer.json"));
         let course = json!({ "format": OBSERVER_FORMAT, "id": id, "course": watched });
-        let text = json_text(&course, "the course")?;
-        atomic::write(&file, text.as_bytes()).map_err(CliError::Output)?;
+        atomic::write_json(&file, &course).map_err(RunError::Output)?;
         let took = watched.iter().map(|watched| watched.took);
         Ok(Self {
             file,
@@ -189,7 +187,7 @@ fn render(
     recording: &Recording,
     path: &Path,
     watched: Option<&[Watched]>,
-) -> Result<bool, CliError> {
+) -> Result<bool, RunError> {
     let (id, physics) = (&recording.id, recording.scene.physics());
     let palette = arguments.palette.palette();
     let minds: Vec<Vec<BeliefFrame>> = match (arguments.belief, &recording.simulation) {
@@ -233,19 +231,19 @@ fn render(
             let items: Vec<RenderedState<'_>> = items.collect();
             picture::write_sheet(path, id, &physics, palette, &items, count.into()).map(|()| true)
         }
-        None => picture::write_video(path, id, &physics, palette, items, &interrupt::requested),
+        None => picture::write_video(path, id, &physics, palette, items, &requested),
     };
     result.map_err(|error| match error {
-        CliError::Write(error) => CliError::Output(error),
+        RunError::Write(error) => RunError::Output(error),
         other => other,
     })
 }
 
 /// An event that was not simulated does not contain its agents' beliefs.
-fn unsimulated(arguments: &Render, id: &str) -> CliError {
+fn unsimulated(arguments: &Render, id: &str) -> RunError {
     let (file, rule) = (arguments.file.display(), "--belief needs a simulated event");
     let why = "a measured recording does not tell what its agents saw and did";
-    CliError::Usage(format!("{file}: event {id}: {rule}; {why}"))
+    RunError::Usage(format!("{file}: event {id}: {rule}; {why}"))
 }
 
 /// The settings that an event was simulated with.
@@ -253,9 +251,9 @@ fn settings(
     arguments: &Render,
     id: &str,
     simulation: &SimulationRecord,
-) -> Result<SimulationSettings, CliError> {
+) -> Result<SimulationSettings, RunError> {
     let settings = serde_json::from_value(simulation.settings.clone());
-    settings.map_err(|source| CliError::SimulationSettings {
+    settings.map_err(|source| RunError::SimulationSettings {
         file: arguments.file.clone(),
         id: id.to_owned(),
         source,
@@ -270,7 +268,7 @@ fn minds(
     settings: &SimulationSettings,
 ) -> Vec<BeliefFrame> {
     let event = &simulation.event;
-    let snapshots = engine::beliefs(event, agent, settings);
+    let snapshots = phase_sim::beliefs(event, agent, &settings.minds);
     let colour = palette.names.agents[agent];
     let steps = event.steps.iter().enumerate();
     let mind = |((t, step), snapshot): ((usize, &phase_event::Step), phase_sim::BeliefSnapshot)| {

@@ -1,6 +1,5 @@
 //! What an observer makes of an event while it watches it, for `render --observer`.
 
-use crate::error::CliError;
 use core::ops::ControlFlow;
 use phase_event::{MethodError, Recording};
 use phase_model::{
@@ -8,6 +7,7 @@ use phase_model::{
     words,
 };
 use phase_render::{Caption, Palette};
+use phase_runs::error::RunError;
 use phase_simple::{Inference, Simple};
 use serde::Serialize;
 use std::time::Instant;
@@ -47,8 +47,8 @@ pub(super) fn watch(
     recording: &Recording,
     seed: u64,
     interrupted: &dyn Fn() -> bool,
-) -> Result<Option<Vec<Watched>>, CliError> {
-    let failed = |error: MethodError| CliError::Method { id: recording.id.clone(), source: error };
+) -> Result<Option<Vec<Watched>>, RunError> {
+    let failed = |error: MethodError| RunError::Method { id: recording.id.clone(), source: error };
     let observed = recording.observed().map_err(|error| failed(MethodError::new(error)))?;
     let simple = Simple::bundled()?;
     let observer = simple.observer(&observed.prefix(0), seed);
@@ -149,9 +149,9 @@ impl Watched {
 #[cfg(test)]
 mod tests {
     use super::Watched;
-    use crate::picture::SHEET_SIDE;
     use phase_model::{AgentId, RelationProbabilities, RoleProbabilities};
     use phase_render::{Palette, SizedFont, Style};
+    use phase_runs::picture::SHEET_SIDE;
     use phase_simple::physical_goals;
 
     /// No line is cut off, neither in a video nor in the smaller pictures of a contact sheet.

@@ -1,10 +1,11 @@
 //! The scenes that games are played in.
 
 use super::options::Serve;
-use crate::{context::Context, error::CliError, source::EventInput};
+use crate::{context::Context, error::CliError};
 use phase_dataset::manifest::{MANIFEST_FILE, Manifest};
 use phase_game::playlist::Item;
 use phase_model::{EventKind, Scene};
+use phase_runs::source::EventInput;
 use phase_sampler::{NamedError, sample_named};
 
 /// Sampled scenes of each kind, where none are given.

@@ -2,6 +2,7 @@
 
 use crate::{effort::SimulationOptions, output::Output, parallel::Jobs};
 use clap::{Args, value_parser};
+use phase_runs::simulate::Simulations;
 use std::path::PathBuf;
 
 /// Options of `simulate`.
@@ -38,4 +39,20 @@ pub struct Simulate {
     /// How many events at once.
     #[command(flatten)]
     pub jobs: Jobs,
+}
+
+impl From<&Simulate> for Simulations {
+    fn from(options: &Simulate) -> Self {
+        Self {
+            events: options.events.clone(),
+            ids: options.id.clone(),
+            seed: options.seed,
+            seeds: options.seeds,
+            same_chance: options.same_chance,
+            videos: !options.no_video,
+            out: options.out.clone(),
+            effort: options.effort.effort(),
+            threads: options.jobs.given(),
+        }
+    }
 }

@@ -1,13 +1,14 @@
 //! Videos in folders, and what is known of them.
 
 use super::options::NewStudy;
-use crate::{context::Context, error::CliError, source};
+use crate::{context::Context, error::CliError};
 use phase_dataset::manifest::{EventEntry, MANIFEST_FILE, Manifest};
 use phase_event::Recording;
 use phase_model::{
     Attitude, Relation, Scene,
     random::{Purpose, stream},
 };
+use phase_runs::source;
 use phase_study::{
     config::{Labels, Stimulus},
     design::known_goals,

@@ -2,6 +2,8 @@
 
 use crate::output::Output;
 use clap::{Args, Subcommand};
+#[cfg(feature = "networks")]
+use phase_runs::train::{Trainee, Training};
 use std::path::PathBuf;
 
 /// What to train.
@@ -62,6 +64,45 @@ pub struct NetworkOptions {
     /// Maximum number of rounds
     #[arg(long, value_name = "N", value_parser = at_least_one)]
     pub rounds: Option<usize>,
+}
+
+#[cfg(feature = "networks")]
+impl Train {
+    /// Datasets and output.
+    pub(super) const fn options(&self) -> &Options {
+        self.parts().1
+    }
+
+    /// The network, datasets and output, and the maximum number of rounds.
+    const fn parts(&self) -> (Trainee, &Options, Option<usize>) {
+        match self {
+            Self::Strength(options) => (Trainee::Strength, options, None),
+            Self::IntentNetwork(it) => (Trainee::IntentNetwork, &it.options, it.rounds),
+            Self::TwoLevelLstm(it) => (Trainee::TwoLevelLstm, &it.options, it.rounds),
+            Self::Arg(it) => (Trainee::Arg, &it.options, it.rounds),
+            Self::SocialGnn(it) => (Trainee::SocialGnn, &it.options, it.rounds),
+            Self::SocialLstm(it) => (Trainee::SocialLstm, &it.options, it.rounds),
+            Self::Stgat(it) => (Trainee::Stgat, &it.options, it.rounds),
+        }
+    }
+}
+
+#[cfg(feature = "networks")]
+impl From<&Train> for Training {
+    fn from(train: &Train) -> Self {
+        let (trainee, options, rounds) = train.parts();
+        Self {
+            trainee,
+            data: options.data.clone(),
+            more: options.more.clone(),
+            events: options.events,
+            validation: options.validation.clone(),
+            out: options.out.clone(),
+            seed: options.seed,
+            test: options.test,
+            rounds,
+        }
+    }
 }
 
 /// A number of events or rounds.

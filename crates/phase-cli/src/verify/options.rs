@@ -2,6 +2,7 @@
 
 use crate::{output::Output, parallel::Jobs};
 use clap::{Args, value_parser};
+use phase_runs::verify::Checks;
 use std::path::PathBuf;
 
 /// Options of `verify`.
@@ -12,7 +13,7 @@ pub struct Verify {
     pub folder: PathBuf,
     /// What is checked beside the files themselves.
     #[command(flatten)]
-    pub checks: Checks,
+    pub checks: CheckOptions,
     /// How the result is printed.
     #[command(flatten)]
     pub output: Output,
@@ -23,7 +24,7 @@ pub struct Verify {
 
 /// What is checked beside the files themselves.
 #[derive(Args, Clone, Debug, Default)]
-pub struct Checks {
+pub struct CheckOptions {
     /// SHA-256 of manifest.json, as gen-dataset and verify print it, from where you trust it: then no change at all goes
     /// unnoticed
     #[arg(long, value_name = "SHA256", value_parser = digest)]
@@ -42,6 +43,18 @@ pub struct Checks {
     /// File of the preset for --replay, if it is not one that comes with the program
     #[arg(long, value_name = "FILE")]
     pub preset: Option<PathBuf>,
+}
+
+impl From<&CheckOptions> for Checks {
+    fn from(options: &CheckOptions) -> Self {
+        Self {
+            digest: options.digest.clone(),
+            replay: options.replay,
+            resimulate: options.resimulate,
+            resimulate_seed: options.resimulate_seed,
+            preset: options.preset.clone(),
+        }
+    }
 }
 
 /// Reads a checksum.

@@ -4,7 +4,6 @@ mod ahead;
 mod bad_input;
 mod benchmark;
 mod blocks;
-mod captions;
 mod console;
 mod damage;
 mod earlier;
@@ -20,7 +19,6 @@ mod playground;
 mod predictions;
 mod progress;
 mod render;
-mod schedule;
 mod selection;
 #[cfg(feature = "serve")]
 mod serve;

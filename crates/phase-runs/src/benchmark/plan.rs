@@ -1,7 +1,7 @@
 //! Which methods are evaluated at which task.
 
-use super::options::Benchmark;
-use crate::{effort::MindOptions, error::CliError, eval::networks};
+use super::BenchmarkRun;
+use crate::{effort::MindChoice, error::RunError, eval::networks};
 use phase_minds::MindKind;
 use phase_simple::Simple;
 use std::path::PathBuf;
@@ -51,7 +51,7 @@ const TASKS: [(Task, &[&str]); 2] = [
 
 /// The paper's two tasks.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Task {
+pub(super) enum Task {
     /// Goals and relations.
     Goals,
     /// Trajectories.
@@ -60,7 +60,7 @@ pub enum Task {
 
 /// One method at one task.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub struct BenchmarkEntry {
+pub(super) struct BenchmarkEntry {
     /// The task.
     pub task: Task,
     /// Its name in the report.
@@ -74,7 +74,7 @@ pub struct BenchmarkEntry {
 impl BenchmarkEntry {
     /// Description of the method.
     #[must_use]
-    pub fn description(&self) -> String {
+    pub(super) fn description(&self) -> String {
         format!("{} by {}", self.task.name(), self.name)
     }
 }
@@ -83,7 +83,7 @@ impl BenchmarkEntry {
     /// Whether the method is asked about sets that differ in one social variable: about goals, with its own weights, and
     /// without the variants of SIMPLE, which take several times as long.
     #[must_use]
-    pub fn does_pairs(&self) -> bool {
+    pub(super) fn does_pairs(&self) -> bool {
         self.task == Task::Goals && self.weights.is_none() && !self.method.starts_with("simple-")
     }
 }
@@ -91,7 +91,7 @@ impl BenchmarkEntry {
 impl Task {
     /// The folder name of its evaluations.
     #[must_use]
-    pub const fn name(self) -> &'static str {
+    pub(super) const fn name(self) -> &'static str {
         match self {
             Self::Goals => "goals",
             Self::Trajectories => "trajectories",
@@ -100,19 +100,18 @@ impl Task {
 }
 
 /// Whether any requested method is a neural network.
-#[must_use]
-pub fn needs_networks(arguments: &Benchmark) -> bool {
+pub(super) fn needs_networks(run: &BenchmarkRun) -> bool {
     let mut names = networks::RECOGNISING.iter().chain(&networks::FORECASTING);
-    !arguments.trained.is_empty() || names.any(|name| wanted(arguments, name))
+    !run.trained.is_empty() || names.any(|name| wanted(run, name))
 }
 
 /// All evaluations, the quickest first, so that errors show early.
 ///
 /// # Errors
 /// If a file of weights cannot be used.
-pub fn entries(arguments: &Benchmark) -> Result<Vec<BenchmarkEntry>, CliError> {
+pub(super) fn entries(run: &BenchmarkRun) -> Result<Vec<BenchmarkEntry>, RunError> {
     let mut entries = Vec::new();
-    for file in &arguments.trained {
+    for file in &run.trained {
         let method = networks::training_of(file)?.network;
         let tasks = TASKS.iter().filter(|(_, methods)| methods.contains(&method.as_str()));
         let name = file.file_stem().unwrap_or_default().to_string_lossy();
@@ -124,9 +123,9 @@ pub fn entries(arguments: &Benchmark) -> Result<Vec<BenchmarkEntry>, CliError> {
         }));
     }
     let own = TASKS.iter().flat_map(|(task, methods)| methods.iter().map(move |method| (*task, *method)));
-    let own = own.filter(|(_, method)| wanted(arguments, method)).map(|(task, method)| BenchmarkEntry {
+    let own = own.filter(|(_, method)| wanted(run, method)).map(|(task, method)| BenchmarkEntry {
         task,
-        name: minds_of(arguments, method, false).name(method),
+        name: minds_of(run, method, false).name(method),
         method: method.into(),
         weights: None,
     });
@@ -138,15 +137,14 @@ pub fn entries(arguments: &Benchmark) -> Result<Vec<BenchmarkEntry>, CliError> {
 
 /// The minds that a method imagines in recordings or in generated events. Bodies in the recordings of the published simulator
 /// turn one way; only SIMPLE has minds.
-#[must_use]
-pub fn minds_of(arguments: &Benchmark, method: &str, recorded: bool) -> MindOptions {
+pub(super) fn minds_of(run: &BenchmarkRun, method: &str, recorded: bool) -> MindChoice {
     if !Simple::NAMES.contains(&method) {
-        return MindOptions::default();
+        return MindChoice::default();
     }
-    let one_way_turns = recorded && arguments.minds == Some(MindKind::Published);
-    MindOptions { minds: arguments.minds, one_way_turns }
+    let one_way_turns = recorded && run.minds == Some(MindKind::Published);
+    MindChoice { kind: run.minds, one_way_turns }
 }
 
-fn wanted(arguments: &Benchmark, method: &str) -> bool {
-    arguments.methods.is_empty() || arguments.methods.iter().any(|name| name == method)
+fn wanted(run: &BenchmarkRun, method: &str) -> bool {
+    run.methods.is_empty() || run.methods.iter().any(|name| name == method)
 }

@@ -1,22 +1,22 @@
 //! One method on one set of events after the other.
 
 use super::{
-    options::Benchmark,
+    BenchmarkRun,
     plan::{BenchmarkEntry, Task, minds_of},
 };
 use crate::{
-    context::Context,
     engine::GENERATOR,
-    error::CliError,
+    error::RunError,
     eval::{
+        Evaluation,
         goals::Goals,
         input::{Event, Input},
-        options::Common,
         ratings::Ratings,
         scored::ScoredEvent,
         task::evaluate,
         trajectories::Trajectories,
     },
+    listener::Listener,
 };
 use phase_dataset::splits::Split;
 use phase_eval::{
@@ -33,8 +33,8 @@ use std::path::Path;
 
 /// The rows so far, and the events that they are about.
 pub(super) struct Rows<'a> {
-    arguments: &'a Benchmark,
-    inputs: Vec<(Input, Common)>,
+    run: &'a BenchmarkRun,
+    inputs: Vec<(Input, Evaluation)>,
     ratings: Option<Ratings>,
     /// What the bundled model of reports was fitted to.
     reports: ReportTraining,
@@ -46,49 +46,46 @@ impl<'a> Rows<'a> {
     ///
     /// # Errors
     /// If the events cannot be used.
-    pub(super) fn open(arguments: &'a Benchmark, context: &Context) -> Result<Self, CliError> {
-        let common = |events: &Path, split| Common {
-            predictions: None,
-            events: events.to_owned(),
+    pub(super) fn open(run: &'a BenchmarkRun, listener: &dyn Listener) -> Result<Self, RunError> {
+        let common = |events: &Path, split| Evaluation {
             split,
-            limit: arguments.limit,
-            seed: arguments.seed,
-            json: None,
-            out: None,
-            parts: arguments.parts.clone(),
-            jobs: arguments.jobs.clone(),
+            limit: run.limit,
+            seed: run.seed,
+            shard: run.shard,
+            threads: run.threads,
+            ..Evaluation::new(events)
         };
-        let generated = (GENERATED, common(&arguments.data, Some(Split::Test)));
-        let real = arguments.real.as_deref().map(|file| (RECORDED, common(file, None)));
-        let pairs = arguments.pairs.as_deref().map(|folder| (PAIRS, common(folder, None)));
+        let generated = (GENERATED, common(&run.data, Some(Split::Test)));
+        let real = run.real.as_deref().map(|file| (RECORDED, common(file, None)));
+        let pairs = run.pairs.as_deref().map(|folder| (PAIRS, common(folder, None)));
         let (mut inputs, mut sets) = (Vec::new(), Vec::new());
         for (label, common) in [generated].into_iter().chain(real).chain(pairs) {
-            let input = Input::open(&common, context)?;
+            let input = Input::open(&common, listener)?;
             let (name, label, sha256) = (input.description.clone(), label.into(), input.sha256.clone());
             sets.push(EventSet { name, label, sha256, events: input.events.len() });
             inputs.push((input, common));
         }
         let of_file = |file: &Path| {
             let inputs: Vec<&Input> = inputs.iter().map(|(input, _)| input).collect();
-            Ratings::read(file, &inputs, context)
+            Ratings::read(file, &inputs, listener)
         };
-        let ratings = arguments.ratings.as_deref().map(of_file).transpose()?;
+        let ratings = run.ratings.as_deref().map(of_file).transpose()?;
         let reports = serde_json::from_str(phase_data::REPORT_TRAINING);
         let reports = reports.map_err(|error| {
             let problem = Problem::Shape { what: "record of a fit", rule: error.to_string() };
-            CliError::File(FileError { file: "data/report-model.training.json".into(), problem })
+            RunError::File(FileError { file: "data/report-model.training.json".into(), problem })
         })?;
         let benchmark = benchmark::Benchmark {
             format: BENCHMARK_FORMAT.into(),
             generator: GENERATOR.into(),
-            options: arguments.measured(),
-            seed: arguments.seed,
+            options: run.measured(),
+            seed: run.seed,
             sets,
             goals: Vec::new(),
             trajectories: Vec::new(),
             trainings: Vec::new(),
         };
-        Ok(Self { arguments, inputs, ratings, reports, benchmark })
+        Ok(Self { run, inputs, ratings, reports, benchmark })
     }
 
     /// Number of sets of events.
@@ -118,34 +115,34 @@ impl<'a> Rows<'a> {
     /// Has a method evaluated, unless that is already done.
     ///
     /// # Errors
-    /// Any [`CliError`].
+    /// Any [`RunError`].
     pub(super) fn add(
         &mut self,
         entry: &BenchmarkEntry,
         training: Option<usize>,
         set: usize,
-        context: &Context,
-    ) -> Result<(), CliError> {
+        listener: &dyn Listener,
+    ) -> Result<(), RunError> {
         let BenchmarkEntry { task, name, method, weights } = entry;
         let (input, common) = &mut self.inputs[set];
         let mut folder = format!("{}-{name}-{}", task.name(), input.name);
-        if let Some(limit) = self.arguments.limit {
+        if let Some(limit) = self.run.limit {
             folder += &format!("-first{limit}");
         }
         // Each part has its evaluations in a folder of its own, by the same names.
-        common.parts.merge = self.arguments.parts.merge.iter().map(|part| part.join(&folder)).collect();
-        common.out = Some(self.arguments.evaluations.join(folder));
+        common.merge = self.run.merge.iter().map(|part| part.join(&folder)).collect();
+        common.out = Some(self.run.evaluations.join(folder));
         let (weights, origin) =
             (weights.as_deref(), if weights.is_some() { Origin::Trained } else { Origin::Ours });
-        let (name, seed) = (name.clone(), self.arguments.seed);
+        let (name, seed) = (name.clone(), self.run.seed);
         let recorded = self.benchmark.sets[set].label == RECORDED;
-        let minds = minds_of(self.arguments, method, recorded);
+        let minds = minds_of(self.run, method, recorded);
         match task {
             Task::Goals => {
                 // Ratings are of recordings.
                 let ratings = self.ratings.clone().filter(|_| recorded);
                 let task = Goals::by_method(&name, method, weights, &minds)?.with_ratings(ratings);
-                let Some(done) = evaluate(&task, input, common, context)? else { return Ok(()) };
+                let Some(done) = evaluate(&task, input, common, listener)? else { return Ok(()) };
                 let events = done.events;
                 let mut row = row(name, origin, set, training, input, &events, seed);
                 if let Some(row) = &mut row {
@@ -155,7 +152,7 @@ impl<'a> Rows<'a> {
             }
             Task::Trajectories => {
                 let task = Trajectories::by_method(&name, method, weights, &minds)?;
-                let Some(done) = evaluate(&task, input, common, context)? else { return Ok(()) };
+                let Some(done) = evaluate(&task, input, common, listener)? else { return Ok(()) };
                 let events = done.events;
                 self.benchmark.trajectories.extend(row(name, origin, set, training, input, &events, seed));
             }
@@ -167,17 +164,17 @@ impl<'a> Rows<'a> {
     ///
     /// # Errors
     /// If it is invalid, or one of other events.
-    pub(super) fn add_results(&mut self, file: &Path) -> Result<(), CliError> {
+    pub(super) fn add_results(&mut self, file: &Path) -> Result<(), RunError> {
         let results = json::read(file)?;
         let fail = |rule: String| {
             let problem = Problem::Shape { what: "results file", rule };
-            CliError::File(FileError { file: file.to_owned(), problem })
+            RunError::File(FileError { file: file.to_owned(), problem })
         };
         let (format, sha256) = (results["format"].as_str(), results["run"]["events_sha256"].as_str());
         let name = results["method"].as_str().unwrap_or_default().to_owned();
         let set = self.benchmark.sets.iter().position(|set| Some(set.sha256.as_str()) == sha256);
         let set = set.ok_or_else(|| fail("field `run.events_sha256` is not that of these events".into()))?;
-        let (input, seed) = (&self.inputs[set].0, self.arguments.seed);
+        let (input, seed) = (&self.inputs[set].0, self.run.seed);
         match format {
             Some(RecognisedEvent::FORMAT) => {
                 let events: Vec<RecognisedEvent> = events_of(&results, input).map_err(fail)?;

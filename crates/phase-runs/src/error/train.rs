@@ -1,5 +1,6 @@
-//! Every way in which training can fail, and its exit code.
+//! Every way in which training can fail.
 
+use super::Fault;
 use phase_baselines::{
     intent_network::UnknownHypothesis,
     recognition::LabelError,
@@ -12,7 +13,7 @@ use phase_simple::strength::WeightsError;
 use std::path::PathBuf;
 use thiserror::Error;
 
-/// Why a command failed. The text is one plain sentence.
+/// Why a training failed. The text is one plain sentence.
 #[derive(Debug, Error)]
 pub enum TrainError {
     /// A file of the dataset cannot be used.
@@ -107,9 +108,9 @@ pub enum TrainError {
 }
 
 impl TrainError {
-    /// 2 for something about the dataset or the output file, 1 for everything else.
+    /// What has to change for the training to succeed.
     #[must_use]
-    pub const fn exit_code(&self) -> u8 {
+    pub const fn fault(&self) -> Fault {
         match self {
             Self::File(_)
             | Self::NotADataset(_)
@@ -121,8 +122,8 @@ impl TrainError {
             | Self::Hypothesis { .. }
             | Self::Checkpoint { .. }
             | Self::TrainingRecord { .. }
-            | Self::Output(_) => 2,
-            Self::Strength(_) | Self::Training(_) | Self::Network(_) | Self::Weights(_) => 1,
+            | Self::Output(_) => Fault::Input,
+            Self::Strength(_) | Self::Training(_) | Self::Network(_) | Self::Weights(_) => Fault::Run,
         }
     }
 }

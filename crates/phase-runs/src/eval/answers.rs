@@ -1,7 +1,7 @@
 //! Sources of answers: one of PHASE's methods, or a predictions file.
 
 use super::input::{Event, Input};
-use crate::{context::Context, error::CliError};
+use crate::{error::RunError, listener::Listener};
 use cpu_time::ThreadTime;
 use phase_event::{EventReadError, MethodError};
 use phase_files::{
@@ -84,16 +84,16 @@ impl<A> PredictionsFile<A> {
     pub(super) fn read(
         file: &Path,
         input: &Input,
-        context: &Context,
+        listener: &dyn Listener,
         parse: impl Fn(&Value) -> Result<BTreeMap<String, A>, EventReadError>,
         fit: impl Fn(&Event, A) -> Result<A, FieldError>,
-    ) -> Result<Self, CliError> {
+    ) -> Result<Self, RunError> {
         let value = json::read(file)?;
         let fail =
             |error: EventReadError| FileError { file: file.to_owned(), problem: Problem::content(error) };
         let mut others = parse(&value).map_err(fail)?;
         if let Some(event) = input.events.iter().find(|event| !others.contains_key(&event.id)) {
-            return Err(CliError::unknown_id(file, &event.id, others.keys().map(String::as_str)));
+            return Err(RunError::unknown_id(file, &event.id, others.keys().map(String::as_str)));
         }
         let mut answers = BTreeMap::new();
         for event in &input.events {
@@ -103,7 +103,7 @@ impl<A> PredictionsFile<A> {
         }
         if !others.is_empty() {
             let others = others.len();
-            context.note(format!("note: {}: {others} of its events are not evaluated", file.display()));
+            listener.note(&format!("note: {}: {others} of its events are not evaluated", file.display()));
         }
         let name = file.file_stem().unwrap_or_default().to_string_lossy().into_owned();
         Ok(Self { name, answers, sha256: hexadecimal(&sha256(value.to_string().as_bytes())) })

@@ -1,57 +1,23 @@
 //! Task 1: accuracy of goals and relations.
 
 use super::{
+    Answers,
     answers::{AnswerSource, PredictionsFile},
     input::{Event, Input},
     methods,
-    options::{EvalGoals, steps_of},
     ratings::Ratings,
-    task::{self, Task},
+    task::Task,
 };
-use crate::{context::Context, effort::MindOptions, error::CliError};
+use crate::{effort::MindChoice, error::RunError, listener::Listener};
 use phase_eval::{
     goals::{Answer, Label, PartialAnswer, RecognisedEvent, SocialRole},
     predictions,
     ratings::RatingCounts,
 };
 use phase_event::{MethodError, ObservedEvent, ProgressCallback, Recogniser, Recording};
+use phase_model::arena::STEP_VIDEO_SECONDS;
 use serde_json::{Value, json};
 use std::path::Path;
-
-/// Runs the command.
-///
-/// # Errors
-/// Any [`CliError`].
-pub(super) fn run(arguments: &EvalGoals, context: &Context) -> Result<(), CliError> {
-    let input = Input::open(&arguments.common, context)?;
-    let ratings = arguments.ratings.as_deref();
-    let ratings = ratings.map(|file| Ratings::read(file, &[&input], context)).transpose()?;
-    let goals = match (&arguments.common.predictions, &arguments.method) {
-        (Some(file), _) => {
-            let given =
-                PredictionsFile::read(file, &input, context, predictions::goals, |_, answer| Ok(answer))?;
-            Goals {
-                name: given.name.clone(),
-                answers: AnswerSource::PredictionsFile(given),
-                watched: Vec::new(),
-                ratings,
-            }
-        }
-        (None, method) => {
-            let method = method.as_deref().unwrap_or_default();
-            let mut watched = arguments.watched.clone();
-            watched.sort_by(f64::total_cmp);
-            watched.dedup();
-            let minds = MindOptions::from(arguments.minds);
-            Goals {
-                watched,
-                ratings,
-                ..Goals::by_method(&minds.name(method), method, arguments.weights.as_deref(), &minds)?
-            }
-        }
-    };
-    task::run(&goals, &input, &arguments.common, context)
-}
 
 /// The task.
 pub(crate) struct Goals {
@@ -64,21 +30,50 @@ pub(crate) struct Goals {
 }
 
 impl Goals {
+    /// The task for answers to some events.
+    ///
+    /// # Errors
+    /// If there is no such method or file, or the file cannot be used.
+    pub(crate) fn of(answers: &Answers, input: &Input, listener: &dyn Listener) -> Result<Self, RunError> {
+        match answers {
+            Answers::Predictions(file) => {
+                let given =
+                    PredictionsFile::read(file, input, listener, predictions::goals, |_, answer| Ok(answer))?;
+                let name = given.name.clone();
+                let answers = AnswerSource::PredictionsFile(given);
+                Ok(Self { name, answers, watched: Vec::new(), ratings: None })
+            }
+            Answers::Method { name, weights, minds } => {
+                Self::by_method(&minds.name(name), name, weights.as_deref(), minds)
+            }
+        }
+    }
+
     /// The task for one of PHASE's methods, under any name; see [`methods::recogniser`].
     ///
     /// # Errors
-    /// As there.
+    /// If there is none of this name in this build, or its file of weights cannot be used.
     pub(crate) fn by_method(
         name: &str,
         method: &str,
         weights: Option<&Path>,
-        minds: &MindOptions,
-    ) -> Result<Self, CliError> {
-        let answers = AnswerSource::Method(methods::recogniser(method, weights, minds)?);
-        Ok(Self { name: name.into(), answers, watched: Vec::new(), ratings: None })
+        minds: &MindChoice,
+    ) -> Result<Self, RunError> {
+        Ok(Self::by(name, methods::recogniser(method, weights, minds)?))
     }
 
-    /// The same with people's ratings of the events.
+    /// The task for any method, under any name.
+    pub(crate) fn by(name: &str, method: Box<dyn Recogniser>) -> Self {
+        let answers = AnswerSource::Method(method);
+        Self { name: name.into(), answers, watched: Vec::new(), ratings: None }
+    }
+
+    /// Asks a method also after these numbers of seconds; those of a file are of whole events.
+    pub(crate) fn with_watched(self, watched: Vec<f64>) -> Self {
+        if self.is_external() { self } else { Self { watched, ..self } }
+    }
+
+    /// Adds people's ratings of the events.
     pub(crate) fn with_ratings(self, ratings: Option<Ratings>) -> Self {
         Self { ratings, ..self }
     }
@@ -110,12 +105,12 @@ impl Task for Goals {
         self.answers.method().map_or(1, |method| method.ticks() * (1 + self.watched.len()))
     }
 
-    fn check(&self, event: &Event, file: &Path) -> Result<(), CliError> {
+    fn check(&self, event: &Event, file: &Path) -> Result<(), RunError> {
         if event.steps > 0 {
             return Ok(());
         }
         let needed = "goals and relations are recognised from motion";
-        Err(CliError::StartAlone { file: file.to_owned(), id: event.id.clone(), needed })
+        Err(RunError::StartAlone { file: file.to_owned(), id: event.id.clone(), needed })
     }
 
     fn ask(
@@ -140,6 +135,11 @@ impl Task for Goals {
         let label = label(event, recording, ratings);
         Ok(Some(RecognisedEvent { id: event.id.clone(), answer, label, watched, cpu_seconds, details }))
     }
+}
+
+/// Seconds of video in steps; both are exact, for there are four steps in a second.
+fn steps_of(seconds: f64) -> usize {
+    (seconds / STEP_VIDEO_SECONDS) as usize
 }
 
 fn judge(

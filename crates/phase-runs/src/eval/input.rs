@@ -1,9 +1,9 @@
 //! The events that a method is evaluated on.
 
-use super::options::Common;
+use super::Evaluation;
 use crate::{
-    context::Context,
-    error::CliError,
+    error::RunError,
+    listener::Listener,
     source::{EventInput, labels_and_rows},
 };
 use phase_dataset::{
@@ -56,28 +56,28 @@ impl Input {
     ///
     /// # Errors
     /// If it cannot be used, or the selection is empty.
-    pub(crate) fn open(arguments: &Common, context: &Context) -> Result<Self, CliError> {
-        let path = &arguments.events;
-        let source = EventInput::open(path, &[], context)?;
+    pub(crate) fn open(evaluation: &Evaluation, listener: &dyn Listener) -> Result<Self, RunError> {
+        let path = &evaluation.events;
+        let source = EventInput::open(path, &[], listener)?;
         let manifest = path.join(MANIFEST_FILE);
         let mut events = if manifest.is_file() {
-            of_manifest(&Manifest::read(&manifest)?, arguments.split)
-        } else if arguments.split.is_some() {
+            of_manifest(&Manifest::read(&manifest)?, evaluation.split)
+        } else if evaluation.split.is_some() {
             let rule = "is not a dataset with a manifest: --split needs a dataset";
-            return Err(CliError::Usage(format!("{}: {rule}", path.display())));
+            return Err(RunError::Usage(format!("{}: {rule}", path.display())));
         } else {
             (0..source.len())
                 .map(|index| of_recording(index, source.load(index)?.as_ref()))
                 .collect::<Result<_, _>>()?
         };
         if events.is_empty() {
-            let what = arguments.split.map_or("", Split::name);
-            return Err(CliError::Usage(format!("{}: has no {what} events", path.display())));
+            let what = evaluation.split.map_or("", Split::name);
+            return Err(RunError::Usage(format!("{}: has no {what} events", path.display())));
         }
-        events.truncate(arguments.limit.map_or(usize::MAX, |limit| limit as usize));
+        events.truncate(evaluation.limit.unwrap_or(usize::MAX));
         let contents: String =
             events.iter().map(|event| format!("{} {}\n", event.id, event.contents)).collect();
-        let (name, description) = names(path, arguments.split);
+        let (name, description) = names(path, evaluation.split);
         Ok(Self { name, description, sha256: sha256_hex(contents.as_bytes()), events, source })
     }
 
@@ -85,7 +85,7 @@ impl Input {
     ///
     /// # Errors
     /// If its file cannot be used.
-    pub(crate) fn load(&self, event: &Event) -> Result<Cow<'_, Recording>, CliError> {
+    pub(crate) fn load(&self, event: &Event) -> Result<Cow<'_, Recording>, RunError> {
         self.source.load(event.index)
     }
 }
@@ -112,7 +112,7 @@ fn of_manifest(manifest: &Manifest, split: Option<Split>) -> Vec<Event> {
 }
 
 /// An event of a file; its digest covers labels and rows, independent of the layout of the file.
-fn of_recording(index: usize, recording: &Recording) -> Result<Event, CliError> {
+fn of_recording(index: usize, recording: &Recording) -> Result<Event, RunError> {
     let (scene, rows) = (&recording.scene, &recording.trajectory);
     Ok(Event {
         id: recording.id.clone(),

@@ -1,7 +1,7 @@
 //! The methods by name. A new method is added here.
 
 use super::networks;
-use crate::{effort::MindOptions, error::CliError};
+use crate::{effort::MindChoice, error::RunError};
 use phase_eval::trivial::{Chance, ConstantVelocity, Stationary};
 use phase_event::{Forecaster, Recogniser};
 use phase_files::{
@@ -32,8 +32,8 @@ pub fn recognisers() -> Vec<&'static str> {
 pub fn recogniser(
     name: &str,
     weights: Option<&Path>,
-    minds: &MindOptions,
-) -> Result<Box<dyn Recogniser>, CliError> {
+    minds: &MindChoice,
+) -> Result<Box<dyn Recogniser>, RunError> {
     let simple = simple(name, minds)?;
     if let Some(network) = networks::recogniser(name, weights)? {
         return Ok(network);
@@ -56,8 +56,8 @@ pub fn recogniser(
 pub fn forecaster(
     name: &str,
     weights: Option<&Path>,
-    minds: &MindOptions,
-) -> Result<Box<dyn Forecaster>, CliError> {
+    minds: &MindChoice,
+) -> Result<Box<dyn Forecaster>, RunError> {
     let simple = simple(name, minds)?;
     if let Some(network) = networks::forecaster(name, weights)? {
         return Ok(network);
@@ -71,32 +71,32 @@ pub fn forecaster(
 }
 
 /// SIMPLE with these minds; `None` for other methods, for which none can be chosen.
-fn simple(name: &str, minds: &MindOptions) -> Result<Option<Simple>, CliError> {
+fn simple(name: &str, minds: &MindChoice) -> Result<Option<Simple>, RunError> {
     if !Simple::NAMES.contains(&name) {
-        let rule = || CliError::Usage(format!("--minds, --one-way-turns: method {name:?} has no minds"));
-        return if minds.are_default() { Ok(None) } else { Err(rule()) };
+        let rule = || RunError::Usage(format!("--minds, --one-way-turns: method {name:?} has no minds"));
+        return if minds.is_default() { Ok(None) } else { Err(rule()) };
     }
     let simple = Simple::named(name, &Arc::new(Models::bundled()?));
-    Ok(simple.map(|simple| simple.with_minds(minds.minds, minds.one_way_turns)))
+    Ok(simple.map(|simple| simple.with_minds(minds.kind, minds.one_way_turns)))
 }
 
 /// The intent network alone, with the weights of a file or the bundled ones.
-fn intent_guess(weights: Option<&Path>) -> Result<IntentGuess, CliError> {
+fn intent_guess(weights: Option<&Path>) -> Result<IntentGuess, RunError> {
     let given = weights.map(json::bytes).transpose()?;
     let bytes = given.as_deref().unwrap_or(IntentNetwork::BUNDLED_WEIGHTS);
     let file = || weights.map_or_else(|| "data/intent-network.safetensors".into(), Path::to_owned);
     let network = IntentNetwork::from_safetensors(bytes)
-        .map_err(|source| CliError::IntentNetwork { file: file(), source })?;
+        .map_err(|source| RunError::IntentNetwork { file: file(), source })?;
     Ok(IntentGuess::new(Arc::new(network), hexadecimal(&sha256(bytes))))
 }
 
-fn no_weights(name: &str, weights: Option<&Path>) -> Result<(), CliError> {
+fn no_weights(name: &str, weights: Option<&Path>) -> Result<(), RunError> {
     match weights {
-        Some(_) => Err(CliError::Usage(format!("--weights: method {name:?} is no neural network"))),
+        Some(_) => Err(RunError::Usage(format!("--weights: method {name:?} is no neural network"))),
         None => Ok(()),
     }
 }
 
-fn no_such(name: &str) -> CliError {
-    CliError::Usage(format!("--method: there is no method {name:?}"))
+fn no_such(name: &str) -> RunError {
+    RunError::Usage(format!("--method: there is no method {name:?}"))
 }

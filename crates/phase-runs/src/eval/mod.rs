@@ -1,38 +1,175 @@
-//! `eval`: how well a method perceives events.
+//! Evaluation of how well a method perceives events.
 //!
 //! [`methods`] knows the methods by name, `task` asks one of them event by event and stores its answers, so
-//! that a run can be interrupted; `shards` divides it among machines; `goals` and `trajectories` are the two tasks, `given` the answers of an
-//! external method.
+//! that a run can be interrupted; `shards` divides it among machines; `goals` and `trajectories` are the two tasks, `answers` has
+//! also those of an external method.
 
 mod answers;
 pub(crate) mod goals;
 pub(crate) mod input;
 pub mod methods;
 pub mod networks;
-pub mod options;
 pub(crate) mod ratings;
 pub(crate) mod scored;
 mod shards;
 pub(crate) mod task;
 pub(crate) mod trajectories;
 
-use crate::{context::Context, error::CliError};
-use options::Eval;
+pub use task::{Evaluated, REPORT_FILE};
 
-/// Runs the command.
+use crate::{effort::MindChoice, error::RunError, listener::Listener};
+use goals::Goals;
+use input::Input;
+use phase_dataset::splits::Split;
+use phase_eval::{goals::RecognisedEvent, trajectories::ForecastEvent};
+use phase_event::{Forecaster, Recogniser};
+use ratings::Ratings;
+use std::path::PathBuf;
+use trajectories::Trajectories;
+
+/// An evaluation of a method on the events of a file or dataset.
 ///
-/// # Errors
-/// Any [`CliError`].
-pub fn run(arguments: &Eval, context: &Context) -> Result<(), CliError> {
-    let method = match arguments {
-        Eval::Goals(arguments) => &arguments.method,
-        Eval::Trajectories(arguments) => &arguments.method,
-    };
-    if method.as_deref().is_some_and(networks::is_network) {
-        networks::require(context)?;
+/// Answers are stored as they are computed: interrupted, the same evaluation goes on from what is finished. Results do not depend
+/// on threads and shards.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Evaluation {
+    /// A file in the format `phase-events/1`, or the folder of a dataset or of simulations.
+    pub events: PathBuf,
+    /// Only this part of a dataset.
+    pub split: Option<Split>,
+    /// Only so many of the first events, at least 1.
+    pub limit: Option<usize>,
+    /// Random seed of the method and of intervals.
+    pub seed: u64,
+    /// Folder for results and report: new, empty, or of the same evaluation; without it one below `out/eval`.
+    pub out: Option<PathBuf>,
+    /// Of goals, also ask the method after these numbers of seconds of each event (multiples of 0.25).
+    pub watched: Vec<f64>,
+    /// Of goals, how people rated the relations of the events (`phase-ratings/1`).
+    pub ratings: Option<PathBuf>,
+    /// The part of the events to ask about, from 1, and the number of parts; without it all.
+    pub shard: Option<(usize, usize)>,
+    /// Folders of all parts, to take the answers from instead of asking the method.
+    pub merge: Vec<PathBuf>,
+    /// Number of threads; without it that of this machine's cores.
+    pub threads: Option<usize>,
+}
+
+/// The source of the answers that are evaluated.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub enum Answers {
+    /// One of PHASE's methods.
+    Method {
+        /// Its name, see [`methods`].
+        name: String,
+        /// The weights of a neural network, if not the bundled ones.
+        weights: Option<PathBuf>,
+        /// The minds that SIMPLE imagines.
+        minds: MindChoice,
+    },
+    /// A file with the answers of an external method.
+    Predictions(PathBuf),
+}
+
+impl Answers {
+    /// One of PHASE's methods as it is, by its name.
+    #[must_use]
+    pub fn of_method(name: impl Into<String>) -> Self {
+        Self::Method { name: name.into(), weights: None, minds: MindChoice::default() }
     }
-    match arguments {
-        Eval::Goals(arguments) => goals::run(arguments, context),
-        Eval::Trajectories(arguments) => trajectories::run(arguments, context),
+}
+
+impl Evaluation {
+    /// An evaluation on all events of a file or folder, with seed 1, on all cores.
+    #[must_use]
+    pub fn new(events: impl Into<PathBuf>) -> Self {
+        Self {
+            events: events.into(),
+            split: None,
+            limit: None,
+            seed: 1,
+            out: None,
+            watched: Vec::new(),
+            ratings: None,
+            shard: None,
+            merge: Vec::new(),
+            threads: None,
+        }
+    }
+
+    /// Evaluates goals and relations, Task 1 of the paper; `None` if that is only a part, which is now done.
+    ///
+    /// # Errors
+    /// If the events, the answers or the folder cannot be used, the method has no answer, a file cannot be written, or a stop was
+    /// requested.
+    pub fn goals(
+        &self,
+        answers: &Answers,
+        listener: &dyn Listener,
+    ) -> Result<Option<Evaluated<RecognisedEvent>>, RunError> {
+        let input = Input::open(self, listener)?;
+        let ratings = self.open_ratings(&input, listener)?;
+        let goals = Goals::of(answers, &input, listener)?;
+        self.ask_goals(goals, ratings, &input, listener)
+    }
+
+    /// Evaluates goals and relations by a method of your own; see [`Evaluation::goals`]. The name is for folders and reports.
+    ///
+    /// # Errors
+    /// Those of [`Evaluation::goals`].
+    pub fn goals_by(
+        &self,
+        name: &str,
+        method: Box<dyn Recogniser>,
+        listener: &dyn Listener,
+    ) -> Result<Option<Evaluated<RecognisedEvent>>, RunError> {
+        let input = Input::open(self, listener)?;
+        let ratings = self.open_ratings(&input, listener)?;
+        self.ask_goals(Goals::by(name, method), ratings, &input, listener)
+    }
+
+    /// Evaluates predicted trajectories, Task 2 of the paper; `None` if that is only a part, which is now done.
+    ///
+    /// # Errors
+    /// Those of [`Evaluation::goals`].
+    pub fn trajectories(
+        &self,
+        answers: &Answers,
+        listener: &dyn Listener,
+    ) -> Result<Option<Evaluated<ForecastEvent>>, RunError> {
+        let input = Input::open(self, listener)?;
+        let trajectories = Trajectories::of(answers, &input, listener)?;
+        task::evaluate(&trajectories, &input, self, listener)
+    }
+
+    /// Evaluates predicted trajectories by a method of your own; see [`Evaluation::goals_by`].
+    ///
+    /// # Errors
+    /// Those of [`Evaluation::goals`].
+    pub fn trajectories_by(
+        &self,
+        name: &str,
+        method: Box<dyn Forecaster>,
+        listener: &dyn Listener,
+    ) -> Result<Option<Evaluated<ForecastEvent>>, RunError> {
+        let input = Input::open(self, listener)?;
+        task::evaluate(&Trajectories::by(name, method), &input, self, listener)
+    }
+
+    fn open_ratings(&self, input: &Input, listener: &dyn Listener) -> Result<Option<Ratings>, RunError> {
+        self.ratings.as_deref().map(|file| Ratings::read(file, &[input], listener)).transpose()
+    }
+
+    fn ask_goals(
+        &self,
+        goals: Goals,
+        ratings: Option<Ratings>,
+        input: &Input,
+        listener: &dyn Listener,
+    ) -> Result<Option<Evaluated<RecognisedEvent>>, RunError> {
+        let mut watched = self.watched.clone();
+        watched.sort_by(f64::total_cmp);
+        watched.dedup();
+        task::evaluate(&goals.with_watched(watched).with_ratings(ratings), input, self, listener)
     }
 }

@@ -1,7 +1,7 @@
 //! People's ratings of the evaluated events, from a file.
 
 use super::input::Input;
-use crate::{context::Context, error::CliError};
+use crate::{error::RunError, listener::Listener};
 use phase_eval::ratings::{RatingCounts, ratings};
 use phase_files::{
     FileError, Problem,
@@ -23,7 +23,7 @@ impl Ratings {
     ///
     /// # Errors
     /// If the file cannot be used, or it is about none of them.
-    pub(crate) fn read(file: &Path, inputs: &[&Input], context: &Context) -> Result<Self, CliError> {
+    pub(crate) fn read(file: &Path, inputs: &[&Input], listener: &dyn Listener) -> Result<Self, RunError> {
         let bytes = json::bytes(file)?;
         let fail = |problem: Problem| FileError { file: file.to_owned(), problem };
         let value = phase_model::json::parse(&bytes).map_err(|error| fail(error.into()))?;
@@ -32,11 +32,11 @@ impl Ratings {
         let rated = ids().filter(|id| counts.contains_key(*id)).count();
         if rated == 0 {
             let first = ids().next().unwrap_or_default();
-            return Err(CliError::unknown_id(file, first, counts.keys().map(String::as_str)));
+            return Err(RunError::unknown_id(file, first, counts.keys().map(String::as_str)));
         }
         let others = counts.keys().filter(|id| !ids().any(|other| other == *id)).count();
         if others > 0 {
-            context.note(format!("note: {}: {others} of its events are not evaluated", file.display()));
+            listener.note(&format!("note: {}: {others} of its events are not evaluated", file.display()));
         }
         Ok(Self { counts, sha256: hexadecimal(&sha256(&bytes)) })
     }

@@ -1,7 +1,7 @@
 //! An evaluation in several parts: `shard.json` in the folder of a part, and the parts that are merged.
 
 use super::task::{AnswerStore, EVENTS};
-use crate::error::CliError;
+use crate::error::RunError;
 use phase_files::{FileError, Problem, atomic, json, run::Run};
 use phase_model::json::check_format;
 use serde::{Deserialize, Serialize};
@@ -50,7 +50,7 @@ pub(super) fn run_of(whole: &Run, shard: Option<(usize, usize)>) -> Run {
 ///
 /// # Errors
 /// If the file cannot be written.
-pub(super) fn write(out: &Path, shard: usize, of: usize, whole: &Run, program: &str) -> Result<(), CliError> {
+pub(super) fn write(out: &Path, shard: usize, of: usize, whole: &Run, program: &str) -> Result<(), RunError> {
     let (format, whole) = (SHARD_FORMAT.into(), whole.value().clone());
     let part = EvaluationShard { format, shard, of, whole, program: program.into() };
     Ok(atomic::write_json(&out.join(SHARD_FILE), &part)?)
@@ -60,11 +60,11 @@ pub(super) fn write(out: &Path, shard: usize, of: usize, whole: &Run, program: &
 ///
 /// # Errors
 /// If there is no finished part of an evaluation.
-pub(super) fn read(folder: &Path) -> Result<EvaluationShard, CliError> {
+pub(super) fn read(folder: &Path) -> Result<EvaluationShard, RunError> {
     let file = folder.join(SHARD_FILE);
     if folder.is_dir() && !file.exists() {
         let rule = format!("holds no finished part of an evaluation (no {SHARD_FILE})");
-        return Err(CliError::Usage(format!("{}: {rule}", folder.display())));
+        return Err(RunError::Usage(format!("{}: {rule}", folder.display())));
     }
     let fail = |problem| FileError { file: file.clone(), problem };
     let value = json::read(&file)?;
@@ -85,8 +85,8 @@ pub(super) struct Merged(Vec<AnswerStore>);
 /// Opens the parts, in any order; `None` if there are none. All parts of the evaluation must be there, made by one program.
 ///
 /// # Errors
-/// [`CliError::Usage`], [`FolderError`](phase_files::folder::FolderError), or if a part cannot be used.
-pub(super) fn open(folders: &[PathBuf], whole: &Run) -> Result<Option<Merged>, CliError> {
+/// [`RunError::Usage`], [`FolderError`](phase_files::folder::FolderError), or if a part cannot be used.
+pub(super) fn open(folders: &[PathBuf], whole: &Run) -> Result<Option<Merged>, RunError> {
     let mut parts = Vec::new();
     for folder in folders {
         let part = read(folder)?;
@@ -99,18 +99,18 @@ pub(super) fn open(folders: &[PathBuf], whole: &Run) -> Result<Option<Merged>, C
         if part.of != first.of || part.program != first.program {
             let (folder, place) = (folder.display(), place.display());
             let rule = "is no part of the same division by the same program as";
-            return Err(CliError::Usage(format!("{folder}: {rule} {place}")));
+            return Err(RunError::Usage(format!("{folder}: {rule} {place}")));
         }
         if part.shard > number {
-            return Err(CliError::Usage(format!("--merge: part {number} of {} is missing", first.of)));
+            return Err(RunError::Usage(format!("--merge: part {number} of {} is missing", first.of)));
         }
         if part.shard < number {
             let rule = format!("is part {} of {}, as another folder is", part.shard, part.of);
-            return Err(CliError::Usage(format!("{}: {rule}", folder.display())));
+            return Err(RunError::Usage(format!("{}: {rule}", folder.display())));
         }
     }
     if parts.len() < first.of {
-        return Err(CliError::Usage(format!("--merge: part {} of {} is missing", parts.len() + 1, first.of)));
+        return Err(RunError::Usage(format!("--merge: part {} of {} is missing", parts.len() + 1, first.of)));
     }
     let store = |(part, folder): (EvaluationShard, &PathBuf)| AnswerStore {
         folder: folder.join(EVENTS),

@@ -1,20 +1,18 @@
 //! What the two tasks have in common: ask a method event by event, store its answers, aggregate, report.
 
 use super::{
+    Evaluation,
     input::{Event, Input},
-    options::Common,
     scored::ScoredEvent,
     shards,
 };
 use crate::{
-    console::{self, print_result},
-    context::Context,
-    error::CliError,
+    error::RunError,
     event_writer::program,
     interrupt,
-    output::print_json,
-    parallel::make_all,
-    progress::Progress,
+    listener::{Listener, Progress},
+    parallel::{self, make_all},
+    words,
 };
 use phase_dataset::shard::slots;
 use phase_document::document::Document;
@@ -41,10 +39,8 @@ const RESULTS_FILE: &str = "results.json";
 const TIMES_FILE: &str = "times.json";
 /// The value of its field `format`.
 const TIMES_FORMAT: &str = "phase-eval-times/1";
-/// The name that means stdout where a file may be named.
-const STDOUT: &str = "-";
 /// The report as a page.
-pub(crate) const REPORT_FILE: &str = "report.html";
+pub const REPORT_FILE: &str = "report.html";
 /// Folder of the stored answers.
 pub(super) const EVENTS: &str = "events";
 
@@ -72,7 +68,7 @@ pub(crate) trait Task: Sync {
     ///
     /// # Errors
     /// Describes the problem, continuing from the event's name.
-    fn check(&self, event: &Event, file: &Path) -> Result<(), CliError>;
+    fn check(&self, event: &Event, file: &Path) -> Result<(), RunError>;
 
     /// Runs the method; `None` if it was cancelled.
     ///
@@ -88,63 +84,40 @@ pub(crate) trait Task: Sync {
     ) -> Result<Option<Self::ScoredEvent>, MethodError>;
 }
 
-/// A task that is done.
-pub(crate) struct Evaluation<A> {
+/// An evaluation that is done.
+#[derive(Clone, Debug)]
+pub struct Evaluated<A> {
     /// Every event with the method's answer.
     pub events: Vec<A>,
-    results: Value,
-    document: Document,
-    out: PathBuf,
-    /// Whether it had already been done.
-    already_finished: bool,
-}
-
-/// Does a task and reports the result.
-///
-/// # Errors
-/// Any [`CliError`].
-pub(super) fn run<T: Task>(
-    task: &T,
-    input: &Input,
-    arguments: &Common,
-    context: &Context,
-) -> Result<(), CliError> {
-    check_output_path(arguments)?;
-    let Some(done) = evaluate(task, input, arguments, context)? else {
-        print_result("this part is done; give the same command with --merge and the folders of all parts");
-        return Ok(());
-    };
-    if arguments.json.as_deref() == Some(Path::new(STDOUT)) {
-        return print_json(&done.results);
-    }
-    write_copies(arguments, &done.results, &done.document)?;
-    print_result(if done.already_finished {
-        format!("{} holds this evaluation already", done.out.display())
-    } else {
-        format!("{}; report in {}", console::events(done.events.len()), done.out.join(REPORT_FILE).display())
-    });
-    Ok(())
+    /// Results for programs, as in `results.json`.
+    pub results: Value,
+    /// The report for people.
+    pub document: Document,
+    /// The folder of both.
+    pub folder: PathBuf,
+    /// Whether it was done now.
+    pub is_new: bool,
 }
 
 /// Does a task, or reuses its results if it is already done; `None` if only a part of it was requested.
 ///
 /// # Errors
-/// Any [`CliError`].
+/// Any [`RunError`].
 pub(crate) fn evaluate<T: Task>(
     task: &T,
     input: &Input,
-    arguments: &Common,
-    context: &Context,
-) -> Result<Option<Evaluation<T::ScoredEvent>>, CliError> {
-    input.events.iter().try_for_each(|event| task.check(event, &arguments.events))?;
-    let shard = arguments.parts.shard;
-    let out = arguments.out.clone().unwrap_or_else(|| default_folder(task, input, shard));
+    evaluation: &Evaluation,
+    listener: &dyn Listener,
+) -> Result<Option<Evaluated<T::ScoredEvent>>, RunError> {
+    input.events.iter().try_for_each(|event| task.check(event, &evaluation.events))?;
+    let shard = evaluation.shard;
+    let out = evaluation.out.clone().unwrap_or_else(|| default_folder(task, input, shard));
     let whole = Run::new([
         ("command", format!("eval {}", T::NAME).into()),
         ("generator", crate::engine::GENERATOR.into()),
         ("method", task.method().into()),
         ("method_settings", task.settings()),
-        ("seed", arguments.seed.into()),
+        ("seed", evaluation.seed.into()),
         ("n_events", input.events.len().into()),
         ("events_sha256", input.sha256.as_str().into()),
     ]);
@@ -152,7 +125,7 @@ pub(crate) fn evaluate<T: Task>(
         method: task.method(),
         given: task.is_external(),
         events: &input.description,
-        seed: arguments.seed,
+        seed: evaluation.seed,
     };
     let run = shards::run_of(&whole, shard);
     let last_file = if shard.is_some() { shards::SHARD_FILE } else { RESULTS_FILE };
@@ -165,24 +138,23 @@ pub(crate) fn evaluate<T: Task>(
         Contents::Finished => return finished(&whole, subject, out).map(Some),
         Contents::Unfinished(other) => {
             run.check(&out, "an unfinished", &other)?;
-            context.note(format!("continuing in {}", out.display()));
+            listener.note(&format!("continuing in {}", out.display()));
         }
         Contents::Nothing => {}
     }
-    let merged = shards::open(&arguments.parts.merge, &whole)?;
-    interrupt::listen();
+    let merged = shards::open(&evaluation.merge, &whole)?;
     let folder = Folder::claim(&out, &run)?;
     let kept = AnswerStore { folder: folder.subfolder(EVENTS)?, program: hexadecimal(&program()) };
     let (shard_number, of) = shard.unwrap_or((1, 1));
     let chosen: Vec<&Event> = slots(shard_number, of, input.events.len()).map(|k| &input.events[k]).collect();
-    let activity = format!("evaluating {} on {}", task.method(), console::events(chosen.len()));
-    let progress = context.progress(&activity, chosen.len(), task.ticks());
-    let answered = make_all(&arguments.jobs, chosen.len(), |k| match &merged {
+    let activity = format!("evaluating {} on {}", task.method(), words::events(chosen.len()));
+    let progress = listener.progress(&activity, chosen.len(), task.ticks());
+    let answered = make_all(parallel::threads(evaluation.threads), chosen.len(), |k| match &merged {
         Some(merged) => merged.store(k).load_or_fail(&chosen[k].id).map(Some),
-        None => one(task, input, chosen[k], arguments.seed, &kept, &progress),
+        None => one(task, input, chosen[k], evaluation.seed, &kept, &*progress),
     })?;
     drop(progress);
-    let Some(answered) = answered else { return Err(CliError::Interrupted(out)) };
+    let Some(answered) = answered else { return Err(RunError::Interrupted(out)) };
     if let Some((number, of)) = shard {
         shards::write(&out, number, of, &whole, &kept.program)?;
         folder.finish()?;
@@ -195,7 +167,7 @@ pub(crate) fn evaluate<T: Task>(
     atomic::write_json(&out.join(TIMES_FILE), &json!({ "format": TIMES_FORMAT, "cpu_seconds": times }))?;
     atomic::write(&out.join(RESULTS_FILE), text_of(&results).as_bytes())?;
     folder.finish()?;
-    Ok(Some(Evaluation { events: answered, results, document, out, already_finished: false }))
+    Ok(Some(Evaluated { events: answered, results, document, folder: out, is_new: true }))
 }
 
 /// Results, without measured times, and report, with them.
@@ -204,7 +176,7 @@ fn summary<A: ScoredEvent>(
     subject: Subject<'_>,
     answered: &[A],
     out: &Path,
-) -> Result<(Value, Document), CliError> {
+) -> Result<(Value, Document), RunError> {
     let mut untimed = answered.to_vec();
     untimed.iter_mut().for_each(|event| *event.cpu_seconds() = None);
     let sum_up = |events: &[A]| A::sum_up(events, subject.seed).ok_or_else(|| no_events(out));
@@ -220,8 +192,8 @@ fn one<T: Task>(
     event: &Event,
     seed: u64,
     kept: &AnswerStore,
-    progress: &Progress,
-) -> Result<Option<T::ScoredEvent>, CliError> {
+    progress: &dyn Progress,
+) -> Result<Option<T::ScoredEvent>, RunError> {
     if let Some(answered) = kept.load(&event.id) {
         progress.event(0, &format!("{} (kept)", event.id));
         return Ok(Some(answered));
@@ -230,15 +202,11 @@ fn one<T: Task>(
     let mut counted = 0;
     let mut tick = || {
         counted += 1;
-        progress.step();
-        if interrupt::requested() {
-            core::ops::ControlFlow::Break(())
-        } else {
-            core::ops::ControlFlow::Continue(())
-        }
+        progress.steps(1);
+        interrupt::goes_on()
     };
     let asked = task.ask(event, &recording, event_seed(seed, &event.id), &mut tick);
-    let answered = asked.map_err(|source| CliError::Method { id: event.id.clone(), source })?;
+    let answered = asked.map_err(|source| RunError::Method { id: event.id.clone(), source })?;
     let Some(answered) = answered else { return Ok(None) };
     kept.store(&event.id, &answered)?;
     progress.event(counted, &event.id);
@@ -268,11 +236,11 @@ impl AnswerStore {
     ///
     /// # Errors
     /// If it is not, or not of this build.
-    fn load_or_fail<A: DeserializeOwned>(&self, id: &str) -> Result<A, CliError> {
+    fn load_or_fail<A: DeserializeOwned>(&self, id: &str) -> Result<A, RunError> {
         self.load(id).ok_or_else(|| {
             let rule = "it is no answer of this part of the evaluation to this event".into();
             let problem = Problem::Shape { what: "answer", rule };
-            CliError::File(FileError { file: self.path(id), problem })
+            RunError::File(FileError { file: self.path(id), problem })
         })
     }
 
@@ -282,7 +250,7 @@ impl AnswerStore {
         ours.then(|| serde_json::from_value(value["event"].take()).ok()).flatten()
     }
 
-    fn store(&self, id: &str, answered: &impl Serialize) -> Result<(), CliError> {
+    fn store(&self, id: &str, answered: &impl Serialize) -> Result<(), RunError> {
         let text = json!({ "program": self.program, "event": answered });
         Ok(atomic::write(&self.path(id), format!("{text:#}\n").as_bytes())?)
     }
@@ -292,7 +260,7 @@ impl AnswerStore {
 ///
 /// # Errors
 /// If a file cannot be written.
-pub(crate) fn write_report(out: &Path, document: &Document) -> Result<(), CliError> {
+pub(crate) fn write_report(out: &Path, document: &Document) -> Result<(), RunError> {
     for (file, svg) in document.plots() {
         atomic::write(&out.join(file), svg.as_bytes())?;
     }
@@ -300,27 +268,14 @@ pub(crate) fn write_report(out: &Path, document: &Document) -> Result<(), CliErr
     Ok(atomic::write(&out.join(REPORT_FILE), document.to_html().as_bytes())?)
 }
 
-/// Prints the table and writes the results to the other requested places.
-fn write_copies(arguments: &Common, results: &Value, document: &Document) -> Result<(), CliError> {
-    if let Some(path) = &arguments.json {
-        atomic::write(path, text_of(results).as_bytes()).map_err(CliError::Output)?;
-    }
-    print_result(document.first_table().trim_end());
-    Ok(())
-}
-
 /// A finished folder of the same run is used unchanged.
-fn finished<A: ScoredEvent>(
-    run: &Run,
-    subject: Subject<'_>,
-    out: PathBuf,
-) -> Result<Evaluation<A>, CliError> {
+fn finished<A: ScoredEvent>(run: &Run, subject: Subject<'_>, out: PathBuf) -> Result<Evaluated<A>, RunError> {
     let file = out.join(RESULTS_FILE);
     let results = json::read(&file)?;
     run.check(&out, "a finished", &results["run"])?;
     let altered = |rule: String| {
         let problem = Problem::Shape { what: "results file", rule };
-        CliError::Altered(FileError { file: file.clone(), problem })
+        RunError::Altered(FileError { file: file.clone(), problem })
     };
     let mut events: Vec<A> =
         serde_json::from_value(results["events"].clone()).map_err(|error| altered(error.to_string()))?;
@@ -335,30 +290,16 @@ fn finished<A: ScoredEvent>(
         return Err(altered("its figures are not those of its events".into()));
     }
     folder::remove_leftovers(&out, run)?;
-    Ok(Evaluation { events, results, document, out, already_finished: true })
+    Ok(Evaluated { events, results, document, folder: out, is_new: false })
 }
 
-fn no_events(out: &Path) -> CliError {
-    CliError::Usage(format!("{}: there are no events to sum up", out.display()))
+fn no_events(out: &Path) -> RunError {
+    RunError::Usage(format!("{}: there are no events to sum up", out.display()))
 }
 
 fn default_folder<T: Task>(task: &T, input: &Input, shard: Option<(usize, usize)>) -> PathBuf {
     let shard = shard.map_or_else(String::new, |(number, of)| format!("-shard{number}of{of}"));
     Path::new("out/eval").join(format!("{}-{}-{}{shard}", T::NAME, task.method(), input.name))
-}
-
-/// Checks before hours of work that the folder of the file to be written at the end exists.
-fn check_output_path(arguments: &Common) -> Result<(), CliError> {
-    let Some(path) = arguments.json.as_ref().filter(|path| *path != Path::new(STDOUT)) else { return Ok(()) };
-    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    let rule = if path.is_dir() {
-        "is a folder; --json needs a file"
-    } else if !folder.is_dir() {
-        "--json: there is no such folder to write into"
-    } else {
-        return Ok(());
-    };
-    Err(CliError::Usage(format!("{}: {rule}", path.display())))
 }
 
 fn text_of(results: &Value) -> String {

@@ -1,13 +1,13 @@
 //! Task 2: errors of predicted trajectories.
 
 use super::{
+    Answers,
     answers::{AnswerSource, PredictionsFile},
     input::{Event, Input},
     methods,
-    options::EvalTrajectories,
-    task::{self, Task},
+    task::Task,
 };
-use crate::{context::Context, effort::MindOptions, error::CliError};
+use crate::{effort::MindChoice, error::RunError, listener::Listener};
 use phase_eval::{
     predictions,
     trajectories::{Errors, ForecastEvent, PREDICTED_STEPS, SampleErrors, WATCHED_STEPS},
@@ -17,29 +17,6 @@ use phase_model::Forecast;
 use serde_json::{Value, json};
 use std::path::Path;
 
-/// Runs the command.
-///
-/// # Errors
-/// Any [`CliError`].
-pub(super) fn run(arguments: &EvalTrajectories, context: &Context) -> Result<(), CliError> {
-    let input = Input::open(&arguments.common, context)?;
-    let task = match (&arguments.common.predictions, &arguments.method) {
-        (Some(file), _) => {
-            let fit = |event: &Event, forecast| {
-                predictions::fit_prediction(&forecast, event.entities, steps_to_predict(event.steps))
-            };
-            let given = PredictionsFile::read(file, &input, context, predictions::forecasts, fit)?;
-            Trajectories { name: given.name.clone(), answers: AnswerSource::PredictionsFile(given) }
-        }
-        (None, method) => {
-            let method = method.as_deref().unwrap_or_default();
-            let minds = MindOptions::from(arguments.minds);
-            Trajectories::by_method(&minds.name(method), method, arguments.weights.as_deref(), &minds)?
-        }
-    };
-    task::run(&task, &input, &arguments.common, context)
-}
-
 /// The task.
 pub(crate) struct Trajectories {
     name: String,
@@ -47,18 +24,41 @@ pub(crate) struct Trajectories {
 }
 
 impl Trajectories {
+    /// The task for answers to some events.
+    ///
+    /// # Errors
+    /// If there is no such method or file, or the file cannot be used.
+    pub(crate) fn of(answers: &Answers, input: &Input, listener: &dyn Listener) -> Result<Self, RunError> {
+        match answers {
+            Answers::Predictions(file) => {
+                let fit = |event: &Event, forecast| {
+                    predictions::fit_prediction(&forecast, event.entities, steps_to_predict(event.steps))
+                };
+                let given = PredictionsFile::read(file, input, listener, predictions::forecasts, fit)?;
+                Ok(Self { name: given.name.clone(), answers: AnswerSource::PredictionsFile(given) })
+            }
+            Answers::Method { name, weights, minds } => {
+                Self::by_method(&minds.name(name), name, weights.as_deref(), minds)
+            }
+        }
+    }
+
     /// The task for one of PHASE's methods, under any name; see [`methods::forecaster`].
     ///
     /// # Errors
-    /// As there.
+    /// If there is none of this name in this build, or its file of weights cannot be used.
     pub(crate) fn by_method(
         name: &str,
         method: &str,
         weights: Option<&Path>,
-        minds: &MindOptions,
-    ) -> Result<Self, CliError> {
-        let answers = AnswerSource::Method(methods::forecaster(method, weights, minds)?);
-        Ok(Self { name: name.into(), answers })
+        minds: &MindChoice,
+    ) -> Result<Self, RunError> {
+        Ok(Self::by(name, methods::forecaster(method, weights, minds)?))
+    }
+
+    /// The task for any method, under any name.
+    pub(crate) fn by(name: &str, method: Box<dyn Forecaster>) -> Self {
+        Self { name: name.into(), answers: AnswerSource::Method(method) }
     }
 }
 
@@ -83,12 +83,12 @@ impl Task for Trajectories {
         self.answers.method().map_or(1, Forecaster::ticks)
     }
 
-    fn check(&self, event: &Event, file: &Path) -> Result<(), CliError> {
+    fn check(&self, event: &Event, file: &Path) -> Result<(), RunError> {
         if event.steps > WATCHED_STEPS {
             return Ok(());
         }
         let (file, id, steps) = (file.display(), &event.id, event.steps);
-        Err(CliError::Usage(format!(
+        Err(RunError::Usage(format!(
             "{file}: event {id} has {steps} steps; {WATCHED_STEPS} are watched and at least one more is to be predicted"
         )))
     }

@@ -3,7 +3,7 @@
 //! Records and events are read back from the folder one at a time, in two passes: the first counts, the second writes what
 //! lists them. So memory does not grow with the number of events. Code for further files of a dataset belongs here.
 
-use crate::{context::Context, error::CliError, gallery_writer::GalleryWriter, interrupt, shortcuts};
+use crate::{error::RunError, gallery_writer::GalleryWriter, interrupt, listener::Listener, shortcuts};
 use phase_audit::{AuditItem, MAX_EVENTS, audit};
 use phase_dataset::{
     acceptance::Tally,
@@ -48,10 +48,10 @@ pub fn complete(
     out: &Path,
     whole: &DatasetDescription,
     records: &dyn Records,
-    context: &Context,
-) -> Result<Completed, CliError> {
+    listener: &dyn Listener,
+) -> Result<Completed, RunError> {
     let overview = count(whole, records)?;
-    describe_all((out, out), overview, &whole.command, records, context)
+    describe_all((out, out), overview, &whole.command, records, listener)
 }
 
 /// Writes the files that describe a dataset whose events have been counted into a folder; the events themselves are in another
@@ -64,9 +64,9 @@ pub(crate) fn describe_all(
     mut overview: Overview,
     command: &str,
     records: &dyn Records,
-    context: &Context,
-) -> Result<Completed, CliError> {
-    let progress = context.progress_over("writing tables, page and manifest", overview.events);
+    listener: &dyn Listener,
+) -> Result<Completed, RunError> {
+    let progress = listener.progress_over("writing tables, page and manifest", overview.events);
     let (preset, generator) = (overview.preset.clone(), overview.generator.clone());
     let gallery =
         Gallery { preset: &preset, generator: &generator, seed: overview.seed, events: overview.events };
@@ -78,14 +78,14 @@ pub(crate) fn describe_all(
     let mut sets = sets.map(|(name, header)| Table::create(out, name, header)).transpose()?;
     let mut audited = Vec::new();
     for record in records.records() {
-        let record = record.map_err(CliError::ReadBack)?;
+        let record = record.map_err(RunError::ReadBack)?;
         if let (Some(table), Some(set)) = (&mut sets, &record.set) {
             let place = |id: &str| record.entries.iter().find(|entry| entry.id == id)?.set.as_ref();
             table.add(&pair_rows(set, place))?;
         }
         for entry in record.entries {
             if interrupt::requested() {
-                return Err(CliError::Interrupted(out.to_owned()));
+                return Err(RunError::Interrupted(out.to_owned()));
             }
             let recording = read_back(from, &entry)?;
             if audited.len() < MAX_EVENTS {
@@ -98,7 +98,7 @@ pub(crate) fn describe_all(
             if let (Some(pages), Some(simulation)) = (&mut pages, &recording.simulation) {
                 pages.push(entry, Timeline::of(&simulation.event))?;
             }
-            progress.step();
+            progress.steps(1);
         }
     }
     overview.files = parquet.finish()?;
@@ -106,7 +106,7 @@ pub(crate) fn describe_all(
         table.finish(out, &mut overview)?;
     }
     for page in pages.map_or_else(|| Ok(Vec::new()), GalleryWriter::finish)? {
-        overview.files.push(FileEntry::of(out, page).map_err(CliError::ReadBack)?);
+        overview.files.push(FileEntry::of(out, page).map_err(RunError::ReadBack)?);
     }
     if let Some(table) = videos {
         table.finish(out, &mut overview)?;
@@ -121,11 +121,11 @@ pub(crate) fn describe_all(
 }
 
 /// Counts attempts and events.
-fn count(whole: &DatasetDescription, records: &dyn Records) -> Result<Overview, CliError> {
+fn count(whole: &DatasetDescription, records: &dyn Records) -> Result<Overview, RunError> {
     let mut overview = Overview::new(whole);
     let mut tally = Tally::default();
     for record in records.records() {
-        let record = record.map_err(CliError::ReadBack)?;
+        let record = record.map_err(RunError::ReadBack)?;
         tally.add(record.entries.iter().filter_map(|entry| entry.variant), &record.refused);
         record.entries.iter().for_each(|entry| overview.count(entry));
         overview.sets += usize::from(record.set.is_some());
@@ -143,38 +143,38 @@ struct Table {
 }
 
 impl Table {
-    fn create(out: &Path, name: &'static str, header: &str) -> Result<Self, CliError> {
+    fn create(out: &Path, name: &'static str, header: &str) -> Result<Self, RunError> {
         let mut table = Self { name, file: AtomicFile::create(&out.join(name))? };
         table.add(header)?;
         Ok(table)
     }
 
-    fn add(&mut self, text: &str) -> Result<(), CliError> {
+    fn add(&mut self, text: &str) -> Result<(), RunError> {
         self.file.write_all(text.as_bytes()).map_err(|source| self.file.failed(source).into())
     }
 
     /// Completes the file and adds it to the manifest.
-    fn finish(self, out: &Path, overview: &mut Overview) -> Result<(), CliError> {
+    fn finish(self, out: &Path, overview: &mut Overview) -> Result<(), RunError> {
         self.file.commit()?;
-        overview.files.push(FileEntry::of(out, self.name).map_err(CliError::ReadBack)?);
+        overview.files.push(FileEntry::of(out, self.name).map_err(RunError::ReadBack)?);
         Ok(())
     }
 }
 
 /// Writes a file that does not belong to a single event, and adds it to the manifest.
-fn describe(out: &Path, overview: &mut Overview, name: &str, text: &str) -> Result<(), CliError> {
+fn describe(out: &Path, overview: &mut Overview, name: &str, text: &str) -> Result<(), RunError> {
     atomic::write(&out.join(name), text.as_bytes())?;
-    overview.files.push(FileEntry::of(out, name).map_err(CliError::ReadBack)?);
+    overview.files.push(FileEntry::of(out, name).map_err(RunError::ReadBack)?);
     Ok(())
 }
 
 /// The event of an entry, from its file.
-fn read_back(out: &Path, entry: &EventEntry) -> Result<Recording, CliError> {
+fn read_back(out: &Path, entry: &EventEntry) -> Result<Recording, RunError> {
     let file = entry.event.place(out);
-    let recordings = phase_events::read(&file).map_err(CliError::ReadBack)?;
+    let recordings = phase_events::read(&file).map_err(RunError::ReadBack)?;
     let ours = |recording: &Recording| recording.simulation.is_some() && recording.id == entry.id;
     recordings.into_iter().find(ours).ok_or_else(|| {
         let rule = format!("it has no simulated event {}", entry.id);
-        CliError::ReadBack(FileError { file, problem: Problem::Shape { what: "event of a dataset", rule } })
+        RunError::ReadBack(FileError { file, problem: Problem::Shape { what: "event of a dataset", rule } })
     })
 }

@@ -5,7 +5,7 @@ use super::{
     schedule::{AttemptId, Job, Progress, Schedule, Standing},
     slot::{Slots, reasons},
 };
-use crate::{error::CliError, interrupt, parallel};
+use crate::{error::RunError, interrupt, parallel};
 use phase_dataset::{acceptance::Refusal, slot_record::SlotRecord};
 use phase_sampler::Variant;
 use std::{
@@ -18,9 +18,8 @@ use std::{
 /// attempt that counts the slot's record is written, so no more is ever lost than what is under way.
 ///
 /// # Errors
-/// [`CliError::Exhausted`] and any failure of sampling, simulating and writing; of several, that of the lowest slot.
-pub(super) fn fill(slots: &Slots<'_>, indices: &[usize], jobs: &parallel::Jobs) -> Result<bool, CliError> {
-    let threads = jobs.threads();
+/// [`RunError::Exhausted`] and any failure of sampling, simulating and writing; of several, that of the lowest slot.
+pub(super) fn fill(slots: &Slots<'_>, indices: &[usize], threads: usize) -> Result<bool, RunError> {
     let board = Board {
         schedule: Schedule::new(indices.len(), slots.most_attempts(), threads),
         in_hand: BTreeMap::new(),
@@ -50,7 +49,7 @@ struct Crew<'a> {
 struct Board {
     schedule: Schedule<Vec<Variant>>,
     in_hand: BTreeMap<usize, SlotInHand>,
-    failure: Option<(usize, CliError)>,
+    failure: Option<(usize, RunError)>,
     is_stopped: bool,
     /// Attempts that were begun ahead and do not count.
     dropped: usize,
@@ -71,7 +70,7 @@ struct SlotInHand {
 enum Outcome {
     Refused(Refusal),
     Accepted(Arc<Attempt>),
-    Failed(CliError),
+    Failed(RunError),
 }
 
 /// Something to be done, and the attempt that it belongs to.
@@ -125,7 +124,7 @@ impl Crew<'_> {
         }
     }
 
-    fn open(&self, slot: usize) -> Result<(), CliError> {
+    fn open(&self, slot: usize) -> Result<(), RunError> {
         let index = self.indices[slot];
         let record = self.slots.load(index);
         if record.is_filled() {
@@ -146,7 +145,7 @@ impl Crew<'_> {
         Ok(())
     }
 
-    fn begin(&self, id: AttemptId, attempt: &Arc<Attempt>) -> Result<(), CliError> {
+    fn begin(&self, id: AttemptId, attempt: &Arc<Attempt>) -> Result<(), RunError> {
         self.report_after(id, attempt, |index| {
             attempt.set_cast(self.slots.cast(index, id.number)?);
             Ok(true)
@@ -158,8 +157,8 @@ impl Crew<'_> {
         &self,
         id: AttemptId,
         attempt: &Arc<Attempt>,
-        act: impl FnOnce(usize) -> Result<bool, CliError>,
-    ) -> Result<(), CliError> {
+        act: impl FnOnce(usize) -> Result<bool, RunError>,
+    ) -> Result<(), RunError> {
         match act(self.indices[id.slot]) {
             Ok(true) => self.report(id, attempt),
             Ok(false) => Ok(()),
@@ -172,7 +171,7 @@ impl Crew<'_> {
     }
 
     /// Judges an attempt by what is known of it.
-    fn report(&self, id: AttemptId, attempt: &Arc<Attempt>) -> Result<(), CliError> {
+    fn report(&self, id: AttemptId, attempt: &Arc<Attempt>) -> Result<(), RunError> {
         let Some(cast) = attempt.cast() else { return Ok(()) };
         // Until the schedule knows, so that it hears of one after the other.
         let results = attempt.results();
@@ -190,7 +189,7 @@ impl Crew<'_> {
         id: AttemptId,
         progress: Progress,
         outcome: Option<Outcome>,
-    ) -> Result<(), CliError> {
+    ) -> Result<(), RunError> {
         let mut guard = self.board();
         let board = &mut *guard;
         let Some(slot) = board.in_hand.get_mut(&id.slot) else { return Ok(()) };
@@ -232,7 +231,7 @@ impl Crew<'_> {
     }
 
     /// Writes the files of a slot of which no further attempt counts.
-    fn finish(&self, slot: usize) -> Result<(), CliError> {
+    fn finish(&self, slot: usize) -> Result<(), RunError> {
         let index = self.indices[slot];
         let taken = {
             let mut board = self.board();
@@ -248,7 +247,7 @@ impl Crew<'_> {
             }
             Some(Outcome::Refused(..)) | None => {
                 let id = self.slots.id(index);
-                return Err(CliError::Exhausted { id, reasons: reasons(&record.refused) });
+                return Err(RunError::Exhausted { id, reasons: reasons(&record.refused) });
             }
         }
         self.save(slot, &record, &saved)?;
@@ -259,7 +258,7 @@ impl Crew<'_> {
     }
 
     /// Writes a slot's record, unless a later one has been written.
-    fn save(&self, slot: usize, record: &SlotRecord, saved: &Mutex<usize>) -> Result<(), CliError> {
+    fn save(&self, slot: usize, record: &SlotRecord, saved: &Mutex<usize>) -> Result<(), RunError> {
         let mut saved = saved.lock().unwrap_or_else(PoisonError::into_inner);
         if record.is_filled() || record.refused.len() > *saved {
             record.save(&self.slots.record_path(self.indices[slot]))?;
@@ -268,7 +267,7 @@ impl Crew<'_> {
         Ok(())
     }
 
-    fn fail(&self, slot: usize, error: CliError) {
+    fn fail(&self, slot: usize, error: RunError) {
         let mut board = self.board();
         if board.failure.as_ref().is_none_or(|(number, _)| slot < *number) {
             board.failure = Some((slot, error));

@@ -1,7 +1,7 @@
-//! `merge`: combines the shards of a dataset.
+//! The shards of a dataset become one.
 
-use super::{announce, complete::complete, options::Merge, run_of};
-use crate::{console, context::Context, error::CliError, interrupt};
+use super::{Generated, Outcome, complete::complete, run_of};
+use crate::{error::RunError, interrupt, listener::Listener, words};
 use phase_dataset::{
     manifest::MANIFEST_FILE,
     parquet,
@@ -18,49 +18,47 @@ use std::{
     path::{Path, PathBuf},
 };
 
-/// Runs the command. The shards are unchanged; the result is the same, byte for byte, as that of a single
-/// run.
+/// Combines all shards of a dataset, in any order, in a folder: new, empty, or of the same merge. The shards are unchanged; the
+/// result is the same, byte for byte, as that of a single run.
 ///
 /// # Errors
-/// Any [`CliError`].
-pub fn run(arguments: &Merge, context: &Context) -> Result<(), CliError> {
-    let (shards, out) = (Shards::read(&arguments.shards)?, &arguments.out);
+/// If a shard is missing or damaged, the folder cannot be used, a file cannot be written, or a stop was requested.
+pub fn merge(shards: &[PathBuf], out: &Path, listener: &dyn Listener) -> Result<Generated, RunError> {
+    let shards = Shards::read(shards)?;
     let whole = &shards.first().whole;
     let finished = run_of(whole, None);
     let run = finished.clone().with("command", "merge");
     match folder::inspect(out, MANIFEST_FILE)? {
-        Contents::Finished => return super::check_finished(out, whole.slots, &finished, arguments.output),
+        Contents::Finished => return super::finished(out, whole.slots, &finished),
         Contents::Unfinished(other) => {
             run.check(out, "an unfinished", &other)?;
-            context.note(format!("continuing in {}", out.display()));
+            listener.note(&format!("continuing in {}", out.display()));
         }
         Contents::Nothing => {}
     }
-    interrupt::listen();
     let folder = Folder::claim(out, &run)?;
     folder.subfolder("events")?;
     if whole.videos {
         folder.subfolder("videos")?;
     }
     folder.subfolder(parquet::FOLDER)?;
-    let progress = context.progress_over(
-        &format!("copying {} of {} shards", console::events(whole.events), shards.0.len()),
+    let progress = listener.progress_over(
+        &format!("copying {} of {} shards", words::events(whole.events), shards.0.len()),
         whole.slots,
     );
     for (shard, from) in &shards.0 {
         for record in shard.records(from) {
             if interrupt::requested() {
-                return Err(CliError::Interrupted(out.clone()));
+                return Err(RunError::Interrupted(out.to_owned()));
             }
             record?.files().try_for_each(|file| copy(file, from, out))?;
-            progress.step();
+            progress.steps(1);
         }
     }
     drop(progress);
-    let completed = complete(out, whole, &shards, context)?;
+    let completed = complete(out, whole, &shards, listener)?;
     folder.finish()?;
-    let more = format!("the {} shards are no longer needed", shards.0.len());
-    announce(out, &completed, arguments.output, &more)
+    Ok(Generated { folder: out.to_owned(), events: whole.events, outcome: Outcome::Made(completed) })
 }
 
 /// All shards of one dataset, in order, with their folders; never empty.
@@ -68,24 +66,24 @@ struct Shards(Vec<(Shard, PathBuf)>);
 
 impl Shards {
     /// Reads shards in any order and checks that they are complete and belong together.
-    fn read(folders: &[PathBuf]) -> Result<Self, CliError> {
+    fn read(folders: &[PathBuf]) -> Result<Self, RunError> {
         let mut shards = Vec::new();
         for folder in folders {
             let file = folder.join(SHARD_FILE);
             if folder.is_dir() && !file.exists() {
                 let sentence = format!("{}: holds no finished shard (no {SHARD_FILE})", folder.display());
-                return Err(CliError::Usage(sentence));
+                return Err(RunError::Usage(sentence));
             }
             shards.push((Shard::read(folder)?, folder.clone()));
         }
         shards.sort_by_key(|(shard, _)| shard.shard);
         let Some((first, place)) = shards.first() else {
-            return Err(CliError::Usage("merge needs the folders of all shards".into()));
+            return Err(RunError::Usage("merge needs the folders of all shards".into()));
         };
         for (shard, folder) in &shards {
             let same_program = shard.fingerprint == first.fingerprint;
             if shard.of != first.of || shard.whole != first.whole || !same_program {
-                return Err(CliError::Usage(format!(
+                return Err(RunError::Usage(format!(
                     "{}: is no shard of the same run of the same program as {}",
                     folder.display(),
                     place.display()
@@ -97,9 +95,9 @@ impl Shards {
                 shards.iter().filter(|(shard, _)| shard.shard == number).map(|(_, folder)| folder).collect();
             match found[..] {
                 [_] => {}
-                [] => return Err(CliError::Usage(format!("shard {number} of {} is missing", first.of))),
+                [] => return Err(RunError::Usage(format!("shard {number} of {} is missing", first.of))),
                 [one, other, ..] => {
-                    return Err(CliError::Usage(format!(
+                    return Err(RunError::Usage(format!(
                         "{} and {} are both shard {number}",
                         one.display(),
                         other.display()
@@ -125,7 +123,7 @@ impl Records for Shards {
 }
 
 /// Copies a file that agrees with its shard, unless it already exists.
-fn copy(file: &FileEntry, from: &Path, to: &Path) -> Result<(), CliError> {
+fn copy(file: &FileEntry, from: &Path, to: &Path) -> Result<(), RunError> {
     if file.verify(to).is_ok() {
         return Ok(());
     }

@@ -1,25 +1,30 @@
-//! `gen-dataset`: generates a dataset, or one shard of it, from a preset and a seed.
+//! Generation of a dataset, or of one shard of it, from a preset and a seed.
 //!
 //! A dataset is a list of slots, each of which tries scenes until one shows its label ([`slot`]). The result
 //! of a slot depends only on the dataset's seed and the slot's number, so threads, interruptions and shards
-//! do not affect it. [`schedule`] decides what is done next, also ahead, and `crew` does it on several threads. When all slots are filled, [`mod@complete`] writes the files that describe the whole.
+//! do not affect it. [`schedule`] decides what is done next, also ahead, and `crew` does it on several threads. When all slots
+//! are filled, [`mod@complete`] writes the files that describe the whole.
 
 mod attempt;
+mod command;
 pub mod complete;
 mod crew;
 pub mod merge;
-pub mod options;
 pub mod plan;
 pub(crate) mod scenes;
 pub mod schedule;
 mod set;
-pub mod slot;
+pub(crate) mod slot;
 
-use crate::{console, context::Context, error::CliError, interrupt, output::Output};
+use crate::{
+    effort::{self, Effort},
+    error::RunError,
+    listener::Listener,
+    parallel,
+};
 use complete::{Completed, complete};
-use options::GenDataset;
 use phase_dataset::{
-    manifest::{MANIFEST_FILE, Manifest, PAGE_FILE},
+    manifest::{MANIFEST_FILE, Manifest},
     parquet,
     shard::{self, DatasetDescription, SHARD_FILE, Shard},
 };
@@ -27,109 +32,147 @@ use phase_files::{
     folder::{self, Contents, Folder},
     run::Run,
 };
-use phase_report::acceptance;
 use plan::Plan;
-use serde_json::json;
 use slot::{FilledSlots, Slots};
 use std::path::{Path, PathBuf};
 
-/// Runs the command.
+/// A dataset to be generated, or one shard of it.
 ///
-/// # Errors
-/// Any [`CliError`].
-pub fn run(arguments: &GenDataset, context: &Context) -> Result<(), CliError> {
-    let plan = Plan::of(arguments)?;
-    let out = arguments.out.clone().unwrap_or_else(|| plan.default_folder());
-    let last_file = if plan.shard.is_some() { SHARD_FILE } else { MANIFEST_FILE };
-    match folder::inspect(&out, last_file)? {
-        Contents::Finished if plan.shard.is_some() => {
-            return check_finished_shard(&plan, &out, arguments.output);
+/// The same fields give the same files, byte for byte, on any machine and for any number of threads; so do shards that are
+/// merged. Interrupted, the same generation goes on from what is finished.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Generation {
+    /// The name of a bundled preset, such as `demo` or `phase-500`, or a file in the format `phase-preset/3` whose name ends in
+    /// `.json`.
+    pub preset: String,
+    /// Number of events of the whole dataset, at least 1; without it the preset's.
+    pub events: Option<usize>,
+    /// Seed of the whole dataset; without it the preset's.
+    pub seed: Option<u64>,
+    /// Folder for the dataset: new, empty, or of the same generation; without it one below `out`, named after preset and seed.
+    pub out: Option<PathBuf>,
+    /// Whether events get videos, and the dataset a page to watch them.
+    pub videos: bool,
+    /// Date of publication in `croissant.json`, YYYY-MM-DD.
+    pub date_published: Option<String>,
+    /// The shard to generate, from 1, and the number of shards; without it the whole.
+    pub shard: Option<(usize, usize)>,
+    /// Engine, minds, and their search.
+    pub effort: Effort,
+    /// Number of threads; without it that of this machine's cores.
+    pub threads: Option<usize>,
+}
+
+/// A dataset or shard that is there.
+#[derive(Debug)]
+pub struct Generated {
+    /// Its folder.
+    pub folder: PathBuf,
+    /// Number of its events.
+    pub events: usize,
+    /// How it came to be there.
+    pub outcome: Outcome,
+}
+
+/// How a dataset or shard came to be there.
+#[derive(Debug)]
+pub enum Outcome {
+    /// The whole dataset is made.
+    Made(Completed),
+    /// A shard is made, by its number from 1 and the number of shards.
+    MadeShard(usize, usize),
+    /// It was there already, and is whole: `dataset` or `shard`.
+    Kept(&'static str),
+}
+
+impl Generation {
+    /// The whole of a preset with videos, on all cores.
+    #[must_use]
+    pub fn new(preset: impl Into<String>) -> Self {
+        Self {
+            preset: preset.into(),
+            events: None,
+            seed: None,
+            out: None,
+            videos: true,
+            date_published: None,
+            shard: None,
+            effort: Effort::default(),
+            threads: None,
         }
-        Contents::Finished => return check_finished(&out, plan.slot_count, &plan.run(), arguments.output),
-        Contents::Unfinished(run) => {
-            plan.run().check(&out, "an unfinished", &run)?;
-            context.note(format!("continuing in {}", out.display()));
+    }
+
+    /// Generates the dataset, goes on with what an interrupted run has left of it, or finds that it is there.
+    ///
+    /// # Errors
+    /// If the preset or the folder cannot be used, no scene of a slot shows its label, a file cannot be written, or a stop was
+    /// requested.
+    pub fn run(&self, listener: &dyn Listener) -> Result<Generated, RunError> {
+        let plan = Plan::of(self)?;
+        let out = self.out.clone().unwrap_or_else(|| plan.default_folder());
+        let last_file = if plan.shard.is_some() { SHARD_FILE } else { MANIFEST_FILE };
+        match folder::inspect(&out, last_file)? {
+            Contents::Finished if plan.shard.is_some() => return finished_shard(&plan, &out),
+            Contents::Finished => return finished(&out, plan.slot_count, &plan.run()),
+            Contents::Unfinished(run) => {
+                plan.run().check(&out, "an unfinished", &run)?;
+                listener.note(&format!("continuing in {}", out.display()));
+            }
+            Contents::Nothing => {}
         }
-        Contents::Nothing => {}
+        listener.detail(&format!("seed {}: {}", plan.seed, effort::description(&plan.settings)));
+        self.make(&plan, out, listener)
     }
-    interrupt::listen();
-    context.detail(format!("seed {}: {}", plan.seed, crate::effort::description(&plan.settings)));
-    let folder = Folder::claim(&out, &plan.run())?;
-    folder.subfolder("events")?;
-    if plan.videos {
-        folder.subfolder("videos")?;
-    }
-    folder.subfolder(parquet::FOLDER)?;
-    let indices = plan.slots();
-    let events = plan.events_in(&indices);
-    let slots = Slots::new(&plan, &folder, events, *context)?;
-    if !crew::fill(&slots, &indices, &arguments.jobs)? {
-        return Err(CliError::Interrupted(out));
-    }
-    // The progress bar goes with them, before anything else is printed.
-    drop(slots);
-    let records = FilledSlots { plan: &plan, folder: &folder };
-    if let Some((shard, of)) = plan.shard {
-        shard::write_slots(&out, &records)?;
-        let header = Shard::of_records(&out, (shard, of), plan.whole(), plan.fingerprint.clone());
-        header.map_err(CliError::ReadBack)?.write(&out)?;
+
+    fn make(&self, plan: &Plan, out: PathBuf, listener: &dyn Listener) -> Result<Generated, RunError> {
+        let folder = Folder::claim(&out, &plan.run())?;
+        folder.subfolder("events")?;
+        if plan.videos {
+            folder.subfolder("videos")?;
+        }
+        folder.subfolder(parquet::FOLDER)?;
+        let indices = plan.slots();
+        let events = plan.events_in(&indices);
+        let slots = Slots::new(plan, &folder, events, listener)?;
+        if !crew::fill(&slots, &indices, parallel::threads(self.threads))? {
+            return Err(RunError::Interrupted(out));
+        }
+        // Its progress goes with it, before anything else is told.
+        drop(slots);
+        let records = FilledSlots { plan, folder: &folder };
+        if let Some((shard, of)) = plan.shard {
+            shard::write_slots(&out, &records)?;
+            let header = Shard::of_records(&out, (shard, of), plan.whole(), plan.fingerprint.clone());
+            header.map_err(RunError::ReadBack)?.write(&out)?;
+            folder.finish()?;
+            return Ok(Generated { folder: out, events, outcome: Outcome::MadeShard(shard, of) });
+        }
+        let completed = complete(&out, &plan.whole(), &records, listener)?;
         folder.finish()?;
-        let text =
-            format!("{} in {}; merge all {of} shards with merge", console::events(events), out.display());
-        let value = json!({ "folder": out, "events": events, "shard": shard, "of": of, "new": true });
-        return arguments.output.print(text, &value);
+        Ok(Generated { folder: out, events: completed.overview.events, outcome: Outcome::Made(completed) })
     }
-    let completed = complete(&out, &plan.whole(), &records, context)?;
-    folder.finish()?;
-    announce(&out, &completed, arguments.output, "")
-}
-
-/// Prints what a finished dataset contains, and how it was generated.
-fn announce(out: &Path, completed: &Completed, output: Output, more: &str) -> Result<(), CliError> {
-    let Completed { overview, digest } = completed;
-    let mut text = String::new();
-    if !overview.selection.is_empty() {
-        text += &format!("{}\n", acceptance::table(&overview.selection).trim_end());
-    }
-    let events = console::events(overview.events);
-    text += &format!("{events} in {}\nSHA-256 of {MANIFEST_FILE}: {digest}\n", out.display());
-    text += &format!("{}{more}", page_line(out));
-    let value = json!({
-        "folder": out, "events": overview.events, "seed": overview.seed, "page": page(out),
-        "selection": overview.selection, "manifest_sha256": digest, "new": true,
-    });
-    output.print(text, &value)
-}
-
-/// The page on which the events can be watched, if they have videos.
-fn page(out: &Path) -> Option<PathBuf> {
-    Some(out.join(PAGE_FILE)).filter(|page| page.exists())
-}
-
-fn page_line(out: &Path) -> String {
-    page(out).map_or_else(String::new, |page| format!("open {} to watch them\n", page.display()))
 }
 
 /// A finished and complete shard is used unchanged if it is the requested one.
-fn check_finished_shard(plan: &Plan, out: &Path, output: Output) -> Result<(), CliError> {
+fn finished_shard(plan: &Plan, out: &Path) -> Result<Generated, RunError> {
     let shard = Shard::read(out)?;
     let run = run_of(&shard.whole, Some((shard.shard, shard.of)));
     plan.run().check(out, "a finished", run.value())?;
     for record in shard.records(out) {
-        record?.files().try_for_each(|file| file.verify(out)).map_err(CliError::Altered)?;
+        record?.files().try_for_each(|file| file.verify(out)).map_err(RunError::Altered)?;
     }
     let events = plan.events_in(&plan.slots());
-    keep_finished(out, &run, ("shard", events), output)
+    keep_finished(out, &run, "shard", events)
 }
 
 /// A finished and complete dataset is used unchanged if it is that of a run.
-fn check_finished(out: &Path, slots: usize, expected: &Run, output: Output) -> Result<(), CliError> {
+fn finished(out: &Path, slots: usize, expected: &Run) -> Result<Generated, RunError> {
     let manifest = Manifest::read(&out.join(MANIFEST_FILE))?;
     let description = description(&manifest, slots);
     let run = run_of(&description, None);
     expected.check(out, "a finished", run.value())?;
-    manifest.all_files().try_for_each(|file| file.verify(out)).map_err(CliError::Altered)?;
-    keep_finished(out, &run, ("dataset", description.events), output)
+    manifest.all_files().try_for_each(|file| file.verify(out)).map_err(RunError::Altered)?;
+    keep_finished(out, &run, "dataset", description.events)
 }
 
 /// What a finished dataset says of itself, but for the command that made it.
@@ -148,17 +191,10 @@ pub(crate) fn description(manifest: &Manifest, slots: usize) -> DatasetDescripti
     }
 }
 
-/// Removes what a run that was killed at its very end has left, and says that everything is there.
-fn keep_finished(
-    out: &Path,
-    run: &Run,
-    (what, events): (&str, usize),
-    output: Output,
-) -> Result<(), CliError> {
+/// Removes what a run that was killed at its very end has left.
+fn keep_finished(out: &Path, run: &Run, what: &'static str, events: usize) -> Result<Generated, RunError> {
     folder::remove_leftovers(out, run)?;
-    let text = format!("{} holds this {what} already; all {events} events are whole\n", out.display());
-    let value = json!({ "folder": out, "events": events, "page": page(out), "new": false });
-    output.print(text + &page_line(out), &value)
+    Ok(Generated { folder: out.to_owned(), events, outcome: Outcome::Kept(what) })
 }
 
 /// The identity of the run that makes a dataset, or a shard of it.

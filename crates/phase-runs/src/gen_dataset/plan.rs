@@ -1,9 +1,9 @@
 //! Everything that determines a dataset.
 
-use super::{options::GenDataset, run_of};
+use super::{Generation, run_of};
 use crate::{
     engine::GENERATOR,
-    error::CliError,
+    error::RunError,
     event_writer::{program, settings_value},
 };
 use phase_dataset::{
@@ -22,7 +22,7 @@ use phase_sim::{Engine, SimulationSettings};
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 
-/// A preset with all options of the command line.
+/// A preset with everything that a generation adds to it.
 #[derive(Clone, Debug)]
 pub struct Plan {
     /// The recipe.
@@ -50,32 +50,27 @@ pub struct Plan {
 }
 
 impl Plan {
-    /// The plan of a command line.
+    /// The plan of a generation.
     ///
     /// # Errors
-    /// [`CliError::UnknownPreset`], or if the preset's file cannot be used.
-    pub fn of(arguments: &GenDataset) -> Result<Self, CliError> {
-        let text = preset_text(&arguments.preset)?;
-        let preset = Preset::parse(&arguments.preset, &text)?;
-        let count = arguments.events.map_or_else(|| preset.events(), |events| events as usize);
-        let seed = arguments.seed.unwrap_or(preset.seed);
-        let (name, effort) = (&arguments.preset, arguments.effort.as_given());
-        let (videos, no_video) = (!arguments.no_video, if arguments.no_video { " --no-video" } else { "" });
-        let date = arguments.date_published.as_ref();
-        let date = date.map_or_else(String::new, |date| format!(" --date-published {date}"));
-        let command = format!(
-            "phase gen-dataset --preset {name} --events {count} --seed {seed}{effort}{no_video}{date}"
-        );
-        let settings = arguments.effort.settings()?;
+    /// [`RunError::UnknownPreset`], or if the preset's file cannot be used.
+    pub fn of(generation: &Generation) -> Result<Self, RunError> {
+        let text = preset_text(&generation.preset)?;
+        let preset = Preset::parse(&generation.preset, &text)?;
+        let count = generation.events.unwrap_or_else(|| preset.events());
+        let seed = generation.seed.unwrap_or(preset.seed);
+        let command = generation.command(count, seed);
+        let videos = generation.videos;
+        let settings = generation.effort.settings()?;
         let settings_value = settings_value(&settings)?;
         let fingerprint = run::digest(&json!({
             "program": hexadecimal(&program()), "settings": settings_value, "seed": seed, "preset": text,
         }));
-        let (composition, shard) = (Composition::of(&preset), arguments.shard);
+        let (composition, shard) = (Composition::of(&preset), generation.shard);
         let slot_count = composition.slots(count).ok_or_else(|| {
             let rule =
                 "the last set would be incomplete; choose a number of events that is made up of whole sets";
-            CliError::Usage(format!("--events {count}: {rule}"))
+            RunError::Usage(format!("--events {count}: {rule}"))
         })?;
         Ok(Self {
             preset,
@@ -87,7 +82,7 @@ impl Plan {
             videos,
             shard,
             fingerprint,
-            date_published: arguments.date_published.clone(),
+            date_published: generation.date_published.clone(),
             settings_value,
             command,
         })
@@ -146,13 +141,13 @@ impl Plan {
 /// A preset that is bundled with the program, by its name, or of a file.
 ///
 /// # Errors
-/// [`CliError::UnknownPreset`], or if the file cannot be used.
-pub fn preset(name: &str) -> Result<Preset, CliError> {
+/// [`RunError::UnknownPreset`], or if the file cannot be used.
+pub fn preset(name: &str) -> Result<Preset, RunError> {
     Ok(Preset::parse(name, &preset_text(name)?)?)
 }
 
 /// The text of a preset: a bundled one, or a file.
-fn preset_text(name: &str) -> Result<String, CliError> {
+fn preset_text(name: &str) -> Result<String, RunError> {
     if let Some((_, text)) = phase_data::PRESETS.iter().find(|(known, _)| *known == name) {
         return Ok((*text).into());
     }
@@ -163,7 +158,7 @@ fn preset_text(name: &str) -> Result<String, CliError> {
             let problem = JsonError::NotText(error.utf8_error().valid_up_to()).into();
             FileError { file: file.to_owned(), problem }.into()
         }),
-        Err(_) if !is_file => Err(CliError::UnknownPreset {
+        Err(_) if !is_file => Err(RunError::UnknownPreset {
             name: name.into(),
             known: phase_data::PRESETS.map(|(name, _)| name).join(", "),
         }),

@@ -4,7 +4,7 @@ use super::{
     attempt::{Cast, CastMember},
     slot::Slots,
 };
-use crate::{error::CliError, picture};
+use crate::{error::RunError, picture};
 use phase_dataset::{
     composition::SetSlot,
     event_set::{PairEntry, SetEntry, SetPlace, member_id, set_video_path},
@@ -37,7 +37,7 @@ impl Slots<'_> {
         slot: &SetSlot,
         (changed, attempts): (AgentId, usize),
         mut events: Vec<(Stance, Event)>,
-    ) -> Result<(Vec<EventEntry>, SetEntry), CliError> {
+    ) -> Result<(Vec<EventEntry>, SetEntry), RunError> {
         self.scenes.order(index, &mut events);
         let mut entries = Vec::with_capacity(events.len());
         for (k, (stance, event)) in events.iter().enumerate() {
@@ -53,7 +53,7 @@ impl Slots<'_> {
         let out = self.folder.path();
         let video = if self.plan.videos {
             picture::write_side_by_side(&out.join(set_video_path(id)), id, &events)?;
-            Some(FileEntry::of(out, set_video_path(id)).map_err(CliError::ReadBack)?)
+            Some(FileEntry::of(out, set_video_path(id)).map_err(RunError::ReadBack)?)
         } else {
             None
         };

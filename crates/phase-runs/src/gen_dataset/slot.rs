@@ -7,12 +7,12 @@ use super::{
     schedule::Part,
 };
 use crate::{
-    console,
-    context::Context,
     engine,
-    error::CliError,
+    error::RunError,
     event_writer::{EventJob, EventWriter},
     interrupt,
+    listener::Listener,
+    words,
 };
 use core::ops::{ControlFlow, RangeInclusive};
 use phase_dataset::{
@@ -33,24 +33,28 @@ use phase_sampler::{SampleError, Variant};
 use std::path::PathBuf;
 
 /// The slots of a dataset that is being generated in a folder.
-#[derive(Debug)]
-pub struct Slots<'a> {
+pub(super) struct Slots<'a> {
     pub(super) plan: &'a Plan,
     pub(super) folder: &'a Folder,
     pub(super) event_writer: EventWriter,
     pub(super) scenes: Scenes<'a>,
-    context: Context,
+    listener: &'a dyn Listener,
 }
 
 impl<'a> Slots<'a> {
     /// Prepares to fill the given number of slots.
     ///
     /// # Errors
-    /// [`CliError::Serialise`].
-    pub fn new(plan: &'a Plan, folder: &'a Folder, count: usize, context: Context) -> Result<Self, CliError> {
-        let activity = format!("making {}", console::events(count));
-        let event_writer = EventWriter::new(&context, &activity, folder, plan.settings, count)?;
-        Ok(Self { plan, folder, event_writer, scenes: Scenes::of(plan), context })
+    /// [`RunError::Serialise`].
+    pub(super) fn new(
+        plan: &'a Plan,
+        folder: &'a Folder,
+        count: usize,
+        listener: &'a dyn Listener,
+    ) -> Result<Self, RunError> {
+        let activity = format!("making {}", words::events(count));
+        let event_writer = EventWriter::new(listener, &activity, folder, plan.settings, count)?;
+        Ok(Self { plan, folder, event_writer, scenes: Scenes::of(plan), listener })
     }
 
     /// The record of a slot: filled, if its files are all there, or as far as an earlier run came.
@@ -98,12 +102,12 @@ impl<'a> Slots<'a> {
 
     /// An attempt was rejected.
     pub(super) fn report_refusal(&self, id: &str, number: usize, refusal: Refusal) {
-        self.context.detail(format!("{id} attempt {}: {}", number + 1, refusal.reason.name()));
+        self.listener.detail(&format!("{id} attempt {}: {}", number + 1, refusal.reason.name()));
     }
 
     /// So many attempts were begun ahead and do not count.
     pub(super) fn report_dropped(&self, attempts: usize) {
-        self.context.detail(format!("attempts begun ahead that did not count: {attempts}"));
+        self.listener.detail(&format!("attempts begun ahead that did not count: {attempts}"));
     }
 
     /// Draws the scenes of an attempt.
@@ -120,7 +124,7 @@ impl<'a> Slots<'a> {
     }
 
     /// Runs a simulation of an attempt, and adds it to its results; `false` if interrupted or no longer wanted.
-    pub(super) fn simulate(&self, index: usize, attempt: &Attempt, part: Part) -> Result<bool, CliError> {
+    pub(super) fn simulate(&self, index: usize, attempt: &Attempt, part: Part) -> Result<bool, RunError> {
         let Some(cast) = attempt.cast() else { return Ok(false) };
         let Some((scene, settings)) = cast.simulation(part) else { return Ok(false) };
         let id = self.plan.preset.id(index);
@@ -159,7 +163,7 @@ impl<'a> Slots<'a> {
         cast: &Cast,
         events: Vec<Event>,
         record: &mut SlotRecord,
-    ) -> Result<(), CliError> {
+    ) -> Result<(), RunError> {
         let id = self.plan.preset.id(index);
         if let (Some(slot), Some(changed)) = (self.plan.composition.set(index), cast.changed) {
             let stances = cast.members.iter().filter_map(|member| member.stance);
@@ -178,7 +182,7 @@ impl<'a> Slots<'a> {
     }
 
     /// Writes the files of an accepted event.
-    pub(super) fn keep_event(&self, id: &str, index: usize, event: &Event) -> Result<EventEntry, CliError> {
+    pub(super) fn keep_event(&self, id: &str, index: usize, event: &Event) -> Result<EventEntry, RunError> {
         let out = self.folder.path();
         let settings = self.scenes.settings(event.scene.relation(), event.seed, index);
         let job = EventJob {
@@ -190,17 +194,17 @@ impl<'a> Slots<'a> {
             video: self.plan.videos.then(|| out.join(video_path(id))),
         };
         self.event_writer.write(&job, event, true)?;
-        EventEntry::of(out, id, event, self.plan.videos).map_err(CliError::ReadBack)
+        EventEntry::of(out, id, event, self.plan.videos).map_err(RunError::ReadBack)
     }
 }
 
 /// The records of a run's slots, all of which are filled.
 #[derive(Clone, Copy, Debug)]
-pub struct FilledSlots<'a> {
+pub(super) struct FilledSlots<'a> {
     /// What is generated.
-    pub plan: &'a Plan,
+    pub(super) plan: &'a Plan,
     /// Where.
-    pub folder: &'a Folder,
+    pub(super) folder: &'a Folder,
 }
 
 impl Records for FilledSlots<'_> {

@@ -1,6 +1,6 @@
 //! The training, validation and test events.
 
-use super::options::Options;
+use super::Training;
 use crate::error::train::TrainError;
 use phase_baselines::training::DataSource;
 use phase_dataset::{
@@ -14,7 +14,7 @@ use phase_files::checksum::sha256_hex;
 use phase_model::path::RelativePath;
 use std::path::{Path, PathBuf};
 
-/// The datasets selected by the options.
+/// The datasets of a training.
 #[derive(Debug)]
 pub(super) struct Events {
     data: Dataset,
@@ -33,15 +33,15 @@ impl Events {
     ///
     /// If a folder is not a dataset, its manifest cannot be used, or there are fewer training events than
     /// requested.
-    pub(super) fn open(options: &Options) -> Result<Self, TrainError> {
-        let data = Dataset::open(&options.data)?;
-        let validation = options.validation.as_deref().map(Dataset::open).transpose()?;
+    pub(super) fn open(training: &Training) -> Result<Self, TrainError> {
+        let data = Dataset::open(&training.data)?;
+        let validation = training.validation.as_deref().map(Dataset::open).transpose()?;
         let found = data.entries(Split::Train).count();
-        let count = options.events.unwrap_or(found);
+        let count = training.events.unwrap_or(found);
         if count > found {
             return Err(TrainError::TooFewEvents { folder: data.folder, asked: count, found });
         }
-        let more = options.more.iter().map(|folder| Dataset::open_more(folder)).collect::<Result<_, _>>()?;
+        let more = training.more.iter().map(|folder| Dataset::open_more(folder)).collect::<Result<_, _>>()?;
         Ok(Self { data, more, validation, count })
     }
 

@@ -1,8 +1,10 @@
 //! Training a baseline network round by round, so that the same command resumes after an interruption.
 
-use super::{events::Events, options::NetworkOptions, training_files::TrainingFiles};
-use crate::error::train::TrainError;
-use crate::{context::Context, error::CliError};
+use super::{Trained, Training, events::Events, training_files::TrainingFiles};
+use crate::{
+    error::{RunError, train::TrainError},
+    listener::Listener,
+};
 use phase_baselines::training::{
     Final, Metrics, NamedMetrics, NetworkError, PublishedNetwork, Round, TrainingRun, TrainingSettings,
     evaluate, to_safetensors,
@@ -17,13 +19,12 @@ use serde_json::json;
 /// # Errors
 /// If the datasets cannot be used, training fails or a file cannot be written.
 pub(super) fn run<N: PublishedNetwork>(
-    options: &NetworkOptions,
-    context: &Context,
+    options: &Training,
+    listener: &dyn Listener,
     mut settings: TrainingSettings,
     sample: impl Fn(&Recording, &ObservedEvent) -> Result<N::Sample, TrainError>,
-) -> Result<(), CliError> {
-    let NetworkOptions { options, rounds } = options;
-    settings.rounds = rounds.unwrap_or(settings.rounds);
+) -> Result<Trained, RunError> {
+    settings.rounds = options.rounds.unwrap_or(settings.rounds);
     let events = Events::open(options)?;
     let samples = |split| -> Result<Vec<N::Sample>, TrainError> {
         let each = |recording: Result<Recording, TrainError>| {
@@ -36,25 +37,25 @@ pub(super) fn run<N: PublishedNetwork>(
         events.of(split)?.map(each).collect()
     };
     events.check()?;
-    context.note("reading the events");
+    listener.note("reading the events");
     let (training, validation) = (samples(Split::Train)?, samples(Split::Validation)?);
     let network = N::published(&mut TrainingRun::<N>::first_weights(options.seed)).map_err(failed)?;
     let mut run = TrainingRun::new(network, options.seed, settings);
     let sources = (events.source(Split::Train), events.source(Split::Validation));
     let mut training_files =
-        TrainingFiles::open(&mut run, &options.out, sources.0, events.more_sources(), sources.1, context)?;
+        TrainingFiles::open(&mut run, &options.out, sources.0, events.more_sources(), sources.1, listener)?;
 
-    context.note(head(N::METRICS));
-    run.rounds().iter().for_each(|round| context.note(line(round)));
+    listener.note(&head(N::METRICS));
+    run.rounds().iter().for_each(|round| listener.note(&line(round)));
     while !run.is_finished() {
         let seconds = training_files.round(&mut run, &training, &validation)?;
         let left = settings.rounds.saturating_sub(run.rounds().len()) as f64 * seconds / 60.0;
         let said = run.rounds().last().map_or_else(String::new, line);
-        context.note(format!("{said}  {seconds:.1} s, at most {left:.0} min remaining"));
+        listener.note(&format!("{said}  {seconds:.1} s, at most {left:.0} min remaining"));
     }
     let best = run.best_round().map_or(0, |round| round.number);
     let network = run.into_best().map_err(failed)?;
-    let report = |split: Split, samples: &[N::Sample]| -> Result<(NamedMetrics, String), CliError> {
+    let report = |split: Split, samples: &[N::Sample]| -> Result<(NamedMetrics, String), RunError> {
         let evaluate = evaluate(&network, samples, settings.batch).map_err(failed)?;
         let scores: Vec<String> = evaluate.scores.iter().map(|score| format!("{score:.3}")).collect();
         let row = format!("| {} | {:.3} | {} |\n", split.name(), evaluate.loss, scores.join(" | "));
@@ -71,11 +72,12 @@ pub(super) fn run<N: PublishedNetwork>(
         of_test.unwrap_or_default(),
     );
     let finished = Final { train, validation, test };
-    let value = json!({ "weights": options.out, "network": N::NAME, "best_round": best, "final": finished });
+    let figures =
+        json!({ "weights": options.out, "network": N::NAME, "best_round": best, "final": finished });
     let weights = to_safetensors(&network).map_err(TrainError::from)?;
     atomic::write(&options.out, &weights).map_err(TrainError::from)?;
     training_files.finish(finished)?;
-    options.output.print(text, &value)
+    Ok(Trained { text, figures })
 }
 
 /// A failure of the neural-network library.

@@ -1,8 +1,10 @@
 //! `strength`: trains the strength regressor of SIMPLE and evaluates it.
 
-use super::{events::Events, options::Options};
-use crate::error::train::TrainError;
-use crate::{context::Context, error::CliError};
+use super::{Trained, Training, events::Events};
+use crate::{
+    error::{RunError, train::TrainError},
+    listener::Listener,
+};
 use phase_baselines::strength::{
     AgentSamples, Sample, Score, StrengthTrainingSettings, most_common, score, train,
 };
@@ -14,22 +16,22 @@ use serde::Serialize;
 use serde_json::json;
 use std::io::Write;
 
-/// Runs the command.
+/// Trains and evaluates it.
 ///
 /// # Errors
 /// If the dataset cannot be used, training fails or the file cannot be written.
-pub(super) fn run(options: &Options, context: &Context) -> Result<(), CliError> {
+pub(super) fn run(options: &Training, listener: &dyn Listener) -> Result<Trained, RunError> {
     let events = Events::open(options)?;
     // An unwritable output is detected before the work.
     let mut file = AtomicFile::create(&options.out).map_err(TrainError::from)?;
     events.check()?;
-    context.note("reading the events");
+    listener.note("reading the events");
     let training = motions(&events, Split::Train)?;
     let validation = motions(&events, Split::Validation)?;
-    context.note("epoch  train  validation: whole  windows  together (RMSE in N)");
+    listener.note("epoch  train  validation: whole  windows  together (RMSE in N)");
     let regressor =
         train(&training, &validation, options.seed, &StrengthTrainingSettings::default(), &mut |epoch| {
-            context.note(format!(
+            listener.note(&format!(
                 "{:5} {:6.1} {:18.1} {:8.1} {:9.1}{}",
                 epoch.number,
                 epoch.training,
@@ -54,7 +56,7 @@ pub(super) fn run(options: &Options, context: &Context) -> Result<(), CliError> 
         |---|---|---|---|---|---|\n"
         .to_owned();
     let lines = rows.iter().map(Row::line).collect::<String>();
-    options.output.print(text + &lines, &json!({ "weights": options.out, "scores": rows }))
+    Ok(Trained { text: text + &lines, figures: json!({ "weights": options.out, "scores": rows }) })
 }
 
 /// Accuracy of the network on one part of the data.

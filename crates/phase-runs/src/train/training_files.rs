@@ -1,7 +1,6 @@
 //! Training files beside the weights: the checkpoint from which the same command resumes, and the record.
 
-use crate::context::Context;
-use crate::error::train::TrainError;
+use crate::{error::train::TrainError, listener::Listener};
 use cpu_time::ProcessTime;
 use phase_baselines::training::{DataSource, Final, Network, TrainingRecord, TrainingRun};
 use phase_files::{WriteError, atomic, json};
@@ -38,7 +37,7 @@ impl TrainingFiles {
         training: DataSource,
         more: Vec<DataSource>,
         validation: DataSource,
-        context: &Context,
+        listener: &dyn Listener,
     ) -> Result<Self, TrainError> {
         let more_data = more.iter().map(|source| format!(" {} {}", source.sha256, source.events));
         let more_data: String = more_data.collect();
@@ -57,7 +56,7 @@ impl TrainingFiles {
             };
             let earlier = TrainingRecord::parse(&json::bytes(&training_files.file)?).map_err(wrong)?;
             training_files.record.resume(earlier, run).map_err(wrong)?;
-            context.note(format!("continuing after round {}", run.rounds().len()));
+            listener.note(&format!("continuing after round {}", run.rounds().len()));
         } else {
             training_files.write(run)?;
         }

@@ -1,9 +1,9 @@
 //! Writing the files that describe a dataset again, and comparing them with those that are there.
 
 use crate::{
-    context::Context,
-    error::CliError,
+    error::RunError,
     gen_dataset::complete::{Completed, describe_all},
+    listener::Listener,
 };
 use phase_dataset::{
     manifest::{CARD_FILE, DIGEST_FILE, EventEntry, MANIFEST_FILE, Manifest},
@@ -17,21 +17,21 @@ use std::{collections::BTreeMap, path::Path};
 /// The files that differ from what the event files, the manifest's list of events and the command in the card give.
 ///
 /// # Errors
-/// [`CliError::Output`] if nothing can be written into the system's folder for temporary files.
+/// [`RunError::Output`] if nothing can be written into the system's folder for temporary files.
 pub(super) fn problems(
     folder: &Path,
     manifest: &Manifest,
-    context: &Context,
-) -> Result<Vec<FileError>, CliError> {
+    listener: &dyn Listener,
+) -> Result<Vec<FileError>, RunError> {
     let path = std::env::temp_dir();
     let scratch = tempfile::tempdir()
-        .map_err(|source| CliError::Output(WriteError { path, action: "create a folder", source }))?;
+        .map_err(|source| RunError::Output(WriteError { path, action: "create a folder", source }))?;
     let differs = |name: &str| FileError {
         file: folder.join(name),
         problem: Problem::Differs("what the events give".into()),
     };
     let Some(command) = command(folder)? else { return Ok(vec![differs(CARD_FILE)]) };
-    let again = rewrite((folder, scratch.path()), manifest, &command, context)?;
+    let again = rewrite((folder, scratch.path()), manifest, &command, listener)?;
     let files = again.overview.files.iter().map(|file| file.path.as_str());
     let mut found = Vec::new();
     for name in files.chain([DIGEST_FILE, MANIFEST_FILE]) {
@@ -63,14 +63,14 @@ pub fn rewrite(
     (from, out): (&Path, &Path),
     manifest: &Manifest,
     command: &str,
-    context: &Context,
-) -> Result<Completed, CliError> {
+    listener: &dyn Listener,
+) -> Result<Completed, RunError> {
     let overview = Overview { files: Vec::new(), ..Overview::of(manifest) };
     if let Some(table) = out.join(VIDEO_TABLE_FILE).parent().filter(|_| overview.videos) {
         let failed = |source| WriteError { path: table.to_owned(), action: "create the folder", source };
-        std::fs::create_dir_all(table).map_err(failed).map_err(CliError::Output)?;
+        std::fs::create_dir_all(table).map_err(failed).map_err(RunError::Output)?;
     }
-    describe_all((from, out), overview, command, &ListedEvents(manifest), context)
+    describe_all((from, out), overview, command, &ListedEvents(manifest), listener)
 }
 
 /// The events of a manifest as the records of their slots.

@@ -1,19 +1,15 @@
-//! `verify`: whether a dataset is complete and its files agree, and whether they are what they say they are.
+//! Whether a dataset is complete and its files agree, and whether they are what they say they are.
 
 pub mod derived;
-pub mod options;
 mod origin;
 mod replay;
 
 use crate::{
-    console::{self, print_message},
-    context::Context,
-    error::CliError,
-    output::print_json,
-    parallel::{Jobs, make_all},
-    shortcuts::{self, audited},
+    error::RunError,
+    listener::Listener,
+    parallel::{self, make_all},
+    words,
 };
-use options::{Checks, Verify};
 use phase_dataset::{
     manifest::{MANIFEST_FILE, Manifest},
     verify::{Check, verify_with, work},
@@ -25,52 +21,41 @@ use phase_files::{
 };
 use phase_model::random::{self, Purpose};
 use rand::seq::SliceRandom;
-use serde_json::json;
-use std::{fs, path::Path};
+use std::{
+    fs,
+    path::{Path, PathBuf},
+};
 
-/// Runs the command: a sentence for each problem, or one stating that there is none.
+/// What is checked beside the files themselves.
+#[derive(Clone, PartialEq, Eq, Debug, Default)]
+pub struct Checks {
+    /// SHA-256 of the manifest in hexadecimal, from a trusted place: with it no change at all goes unnoticed.
+    pub digest: Option<String>,
+    /// Whether to derive again what follows from the recorded actions and from the preset: motion in the engine named, labels,
+    /// scenes, seeds and splits, videos, and every file that describes the whole.
+    pub replay: bool,
+    /// How many events to simulate again, thoughts and all.
+    pub resimulate: Option<usize>,
+    /// Seed of the choice of these events.
+    pub resimulate_seed: u64,
+    /// File of the preset for `replay`, if it is not bundled.
+    pub preset: Option<PathBuf>,
+}
+
+/// Opens a finished dataset for [`problems`]: its manifest.
 ///
 /// # Errors
-/// [`CliError::NotWhole`] if there is a problem; [`CliError::Usage`], [`CliError::Unfinished`] or a
-/// [`CliError::File`] if there is no manifest to check against; [`CliError::Threads`].
-pub fn run(arguments: &Verify, context: &Context) -> Result<(), CliError> {
-    let folder = &arguments.folder;
+/// [`RunError::Unfinished`], [`RunError::Usage`] if there is no manifest, or a [`RunError::File`] if it cannot be used.
+pub fn open(folder: &Path) -> Result<Manifest, RunError> {
     match folder::inspect(folder, MANIFEST_FILE) {
-        Ok(Contents::Finished) => {}
+        Ok(Contents::Finished) => Ok(manifest(folder)?),
         Ok(Contents::Unfinished(_)) | Err(FolderError::EarlierRun(_)) => {
-            return Err(CliError::Unfinished(folder.clone()));
+            Err(RunError::Unfinished(folder.to_owned()))
         }
         _ => {
             let rule = "holds no manifest.json; give the folder of a finished dataset";
-            return Err(CliError::Usage(format!("{}: {rule}", folder.display())));
+            Err(RunError::Usage(format!("{}: {rule}", folder.display())))
         }
-    }
-    let manifest = manifest(folder)?;
-    let digest = FileEntry::of(folder, MANIFEST_FILE)?.sha256;
-    let problems = problems(folder, &manifest, &arguments.checks, &arguments.jobs, context)?;
-    for problem in &problems {
-        print_message(problem);
-    }
-    let events = manifest.events.len();
-    let sentences: Vec<String> = problems.iter().map(ToString::to_string).collect();
-    let mut value = json!({
-        "folder": folder, "events": events, "whole": problems.is_empty(), "problems": sentences,
-        "manifest_sha256": digest, "replayed": arguments.checks.replay,
-        "resimulated": arguments.checks.resimulate.map_or(0, |count| count.min(events)),
-    });
-    if problems.is_empty() {
-        let audit = audited(folder, &arguments.jobs, context)?;
-        let shortcuts = audit.as_ref().map(shortcuts::verdict).unwrap_or_default();
-        value["shortcuts"] = audit.as_ref().map(shortcuts::value).into();
-        let known = if arguments.checks.digest.is_some() { ", as expected" } else { "" };
-        let text =
-            format!("all {events} events are whole{shortcuts}\nSHA-256 of {MANIFEST_FILE}: {digest}{known}");
-        arguments.output.print(text, &value)
-    } else {
-        if arguments.output.json {
-            print_json(&value)?;
-        }
-        Err(CliError::NotWhole { folder: folder.clone(), problems: problems.len() })
     }
 }
 
@@ -92,20 +77,21 @@ pub fn manifest(folder: &Path) -> Result<Manifest, FileError> {
 /// Everything that is wrong with a dataset. Deeper checks are made of what no cheaper one has found wrong.
 ///
 /// # Errors
-/// [`CliError::Threads`], [`CliError::Interrupted`], or if nothing can be written into the system's folder for temporary files.
+/// [`RunError::Threads`], [`RunError::Interrupted`], or if nothing can be written into the system's folder for temporary files.
 pub fn problems(
     folder: &Path,
     manifest: &Manifest,
     checks: &Checks,
-    jobs: &Jobs,
-    context: &Context,
-) -> Result<Vec<FileError>, CliError> {
-    let progress = context
-        .progress_over(&format!("verifying {}", console::events(manifest.events.len())), work(manifest));
+    threads: Option<usize>,
+    listener: &dyn Listener,
+) -> Result<Vec<FileError>, RunError> {
+    let threads = parallel::threads(threads);
+    let activity = format!("verifying {}", words::events(manifest.events.len()));
+    let progress = listener.progress_over(&activity, work(manifest));
     let run = |count: usize, check: &Check<'_>| {
-        let answers = make_all(jobs, count, |k| Ok(Some(check(k))))?;
+        let answers = make_all(threads, count, |k| Ok(Some(check(k))))?;
         // There is always a result: interruptions are not handled here, and nothing is written.
-        Ok::<_, CliError>(answers.unwrap_or_default())
+        Ok::<_, RunError>(answers.unwrap_or_default())
     };
     let mut problems = verify_with(folder, manifest, &|steps| progress.steps(steps), run)?;
     drop(progress);
@@ -115,14 +101,14 @@ pub fn problems(
         problems.push(FileError { file, problem: Problem::Differs("the digest that was given".into()) });
     }
     if problems.is_empty() && checks.replay {
-        problems = replay::problems(folder, manifest, checks, jobs, context)?;
+        problems = replay::problems(folder, manifest, checks, threads, listener)?;
     }
     if let (true, Some(count)) = (problems.is_empty(), checks.resimulate) {
         let mut events: Vec<usize> = (0..manifest.events.len()).collect();
         events.shuffle(&mut random::stream(checks.resimulate_seed, Purpose::Event, 0));
         events.truncate(count);
         events.sort_unstable();
-        problems = replay::simulated_again(folder, manifest, &events, jobs, context)?;
+        problems = replay::simulated_again(folder, manifest, &events, threads, listener)?;
     }
     Ok(problems)
 }

@@ -1,12 +1,11 @@
 //! What a dataset's preset and seed make of each of its events: variant, split, seed, scene, and that the event shows its label.
 
-use super::{derived::command, options::Checks};
+use super::{Checks, derived::command};
 use crate::{
     engine::{GENERATOR, attempt_seed},
-    error::CliError,
-    gen_dataset::{description, options::GenDataset, plan::Plan, run_of, scenes::Scenes, slot::required},
+    error::RunError,
+    gen_dataset::{Generation, description, plan::Plan, run_of, scenes::Scenes, slot::required},
 };
-use clap::Parser;
 use phase_dataset::{
     acceptance::Acceptance,
     event_set::member_id,
@@ -34,14 +33,6 @@ struct Slot {
     index: usize,
     /// The place among the events of a set, in the order of their names.
     member: usize,
-}
-
-/// The command line in a card.
-#[derive(Parser)]
-#[command(no_binary_name = true)]
-struct CardCommand {
-    #[command(flatten)]
-    options: GenDataset,
 }
 
 impl Origin {
@@ -207,21 +198,21 @@ impl Origin {
 }
 
 /// The plan of the command in the card: an error if there is no such command, an inner one if there is no such preset here.
-fn plan(folder: &Path, checks: &Checks) -> Result<Result<Plan, CliError>, String> {
+fn plan(folder: &Path, checks: &Checks) -> Result<Result<Plan, RunError>, String> {
     let text = command(folder).map_err(|error| error.to_string())?;
     let text = text.ok_or("a card, which has the command that made the dataset")?;
-    let words = text.strip_prefix("phase gen-dataset ").map(|words| words.split(' '));
-    let words = words.ok_or("a card, whose command is phase gen-dataset")?;
-    let parsed = CardCommand::try_parse_from(words).map_err(|_| "a card, whose command can be given")?;
-    let mut options = parsed.options;
+    if !text.starts_with("phase gen-dataset ") {
+        return Err("a card, whose command is phase gen-dataset".into());
+    }
+    let mut generation = Generation::of_command(&text).ok_or("a card, whose command can be given")?;
+    let preset = &generation.preset;
     if let Some(file) = &checks.preset {
-        options.preset = file.to_string_lossy().into_owned();
-    } else if !phase_data::PRESETS.iter().any(|(name, _)| *name == options.preset) {
+        generation.preset = file.to_string_lossy().into_owned();
+    } else if !phase_data::PRESETS.iter().any(|(name, _)| name == preset) {
         // The card may name any file, and is not believed.
-        let preset = &options.preset;
         return Err(format!("what can be replayed: give the file of its preset, {preset:?}, with --preset"));
     }
-    Ok(Plan::of(&options))
+    Ok(Plan::of(&generation))
 }
 
 /// The place of each event in a plan, in order.

@@ -1,15 +1,14 @@
 //! Deriving again what an event's file says: its motion from its actions, its video from its motion, and all of it from its seed.
 
-use super::{derived, options::Checks, origin::Origin};
+use super::{Checks, derived, origin::Origin};
 use crate::{
-    console,
-    context::Context,
     engine,
-    error::CliError,
+    error::RunError,
     event_writer::{settings_value, video},
     gen_dataset::scenes::Scenes,
-    parallel::{Jobs, make_all},
-    picture,
+    listener::{Listener, Silent},
+    parallel::make_all,
+    picture, words,
 };
 use core::ops::ControlFlow;
 use phase_dataset::{
@@ -29,30 +28,31 @@ use std::path::Path;
 /// Everything in a dataset that is not what follows from its actions and from its preset.
 ///
 /// # Errors
-/// [`CliError::Threads`] or [`CliError::Interrupted`].
+/// [`RunError::Threads`] or [`RunError::Interrupted`].
 pub(super) fn problems(
     folder: &Path,
     manifest: &Manifest,
     checks: &Checks,
-    jobs: &Jobs,
-    context: &Context,
-) -> Result<Vec<FileError>, CliError> {
+    threads: usize,
+    listener: &dyn Listener,
+) -> Result<Vec<FileError>, RunError> {
     let origin = match Origin::of(folder, manifest, checks) {
         Ok(origin) => origin,
         Err(problems) => return Ok(problems),
     };
     let scenes = origin.scenes();
     let count = manifest.events.len();
-    let progress = context.progress_over(&format!("replaying {}", console::events(count)), count);
-    let mut problems = over(folder, jobs, count, |k| {
+    let progress = listener.progress_over(&format!("replaying {}", words::events(count)), count);
+    let mut problems = over(folder, threads, count, |k| {
         let problem = event(folder, &manifest.events[k], k, &origin, &scenes);
         progress.steps(1);
         problem
     })?;
-    problems.extend(over(folder, jobs, manifest.sets.len(), |k| set(folder, manifest, &manifest.sets[k]))?);
+    problems
+        .extend(over(folder, threads, manifest.sets.len(), |k| set(folder, manifest, &manifest.sets[k]))?);
     drop(progress);
     if problems.is_empty() {
-        problems = derived::problems(folder, manifest, &context.quiet())?;
+        problems = derived::problems(folder, manifest, &Silent)?;
     }
     Ok(problems)
 }
@@ -60,12 +60,12 @@ pub(super) fn problems(
 /// The problems that a check of each of several things finds.
 fn over(
     folder: &Path,
-    jobs: &Jobs,
+    threads: usize,
     count: usize,
     check: impl Fn(usize) -> Result<(), FileError> + Sync,
-) -> Result<Vec<FileError>, CliError> {
-    let answers = make_all(jobs, count, |k| Ok(Some(check(k).err())))?;
-    let answers = answers.ok_or_else(|| CliError::Interrupted(folder.to_owned()))?;
+) -> Result<Vec<FileError>, RunError> {
+    let answers = make_all(threads, count, |k| Ok(Some(check(k).err())))?;
+    let answers = answers.ok_or_else(|| RunError::Interrupted(folder.to_owned()))?;
     Ok(answers.into_iter().flatten().collect())
 }
 
@@ -99,7 +99,7 @@ fn set(folder: &Path, manifest: &Manifest, set: &SetEntry) -> Result<(), FileErr
     check_video(folder, file, picture::beside(&set.id, &events))
 }
 
-fn check_video(folder: &Path, entry: &FileEntry, drawn: Result<Vec<u8>, CliError>) -> Result<(), FileError> {
+fn check_video(folder: &Path, entry: &FileEntry, drawn: Result<Vec<u8>, RunError>) -> Result<(), FileError> {
     let differs = |what: String| FileError { file: entry.place(folder), problem: Problem::Differs(what) };
     let drawn = drawn.map_err(|error| differs(format!("its event, which cannot be drawn: {error}")))?;
     let same = sha256_hex(&drawn) == entry.sha256;
@@ -109,27 +109,27 @@ fn check_video(folder: &Path, entry: &FileEntry, drawn: Result<Vec<u8>, CliError
 /// Simulates some events again, by index; those whose files have other bytes.
 ///
 /// # Errors
-/// [`CliError::Threads`] or [`CliError::Interrupted`].
+/// [`RunError::Threads`] or [`RunError::Interrupted`].
 pub(super) fn simulated_again(
     folder: &Path,
     manifest: &Manifest,
     events: &[usize],
-    jobs: &Jobs,
-    context: &Context,
-) -> Result<Vec<FileError>, CliError> {
+    threads: usize,
+    listener: &dyn Listener,
+) -> Result<Vec<FileError>, RunError> {
     let count = events.len();
-    let progress = context.progress_over(&format!("simulating {} again", console::events(count)), count);
-    let answers = make_all(jobs, count, |k| {
+    let progress = listener.progress_over(&format!("simulating {} again", words::events(count)), count);
+    let answers = make_all(threads, count, |k| {
         let answer = simulate(folder, &manifest.events[events[k]]);
         progress.steps(1);
         answer
     })?;
-    let answers = answers.ok_or_else(|| CliError::Interrupted(folder.to_owned()))?;
+    let answers = answers.ok_or_else(|| RunError::Interrupted(folder.to_owned()))?;
     Ok(answers.into_iter().flatten().collect())
 }
 
 /// Simulates an event again: the problem found, if any; `None` if interrupted.
-fn simulate(folder: &Path, entry: &EventEntry) -> Result<Option<Option<FileError>>, CliError> {
+fn simulate(folder: &Path, entry: &EventEntry) -> Result<Option<Option<FileError>>, RunError> {
     let (recorded, settings) = match Recorded::read(folder, entry).and_then(|it| Ok((it.settings()?, it))) {
         Ok((settings, recorded)) => (recorded, settings),
         Err(error) => return Ok(Some(Some(error))),

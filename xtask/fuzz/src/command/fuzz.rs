@@ -6,8 +6,9 @@ use crate::{
     targets::{Check, TARGETS},
 };
 use clap::{Args, builder::PossibleValuesParser, value_parser};
-use phase_cli::{console::print_result, context::Context, interrupt};
+use phase_cli::{console::print_result, context::Context};
 use phase_files::{atomic, checksum::sha256_hex};
+use phase_runs::interrupt::requested;
 use std::{
     fs,
     path::{Path, PathBuf},
@@ -54,7 +55,7 @@ pub(super) fn run(arguments: &Fuzz, context: &Context) -> Result<(), FuzzError> 
             context.note(format!("{}: {} s", target.0, arguments.seconds));
             let begun = Instant::now();
             let end = begun + Duration::from_secs(arguments.seconds);
-            let goes_on = || Instant::now() < end && !interrupt::requested();
+            let goes_on = || Instant::now() < end && !requested();
             let result = corpus(target.0).and_then(|corpus| {
                 fuzzing::run(target, corpus, arguments.seed, goes_on)
                     .map_err(|failure| kept(&arguments.out, target.0, &failure))

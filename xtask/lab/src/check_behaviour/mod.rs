@@ -9,16 +9,7 @@ mod trial;
 
 use crate::check_minds::parameters;
 use options::CheckBehaviour;
-use phase_cli::{
-    console::print_result,
-    context::Context,
-    engine::GENERATOR,
-    error::CliError,
-    event_writer::settings_value,
-    interrupt,
-    parallel::make_all,
-    picture::{self, RenderedState},
-};
+use phase_cli::{console::print_result, context::Context, interrupt};
 use phase_dataset::phase_events;
 use phase_files::{
     WriteError, atomic,
@@ -28,6 +19,13 @@ use phase_files::{
 use phase_minds::MindParameters;
 use phase_model::{Scene, arena::SUBSTEPS};
 use phase_render::Palette;
+use phase_runs::{
+    engine::GENERATOR,
+    error::RunError,
+    event_writer::settings_value,
+    parallel::make_all,
+    picture::{self, RenderedState},
+};
 use phase_sim::SimulationSettings;
 use report::{SceneResult, Trial};
 use rows::PARTS;
@@ -45,8 +43,8 @@ const SHEET_FRAMES: usize = 15;
 /// Runs the command.
 ///
 /// # Errors
-/// Any [`CliError`].
-pub fn run(arguments: &CheckBehaviour, context: &Context) -> Result<(), CliError> {
+/// Any [`RunError`].
+pub fn run(arguments: &CheckBehaviour, context: &Context) -> Result<(), RunError> {
     let scenes = scenes(arguments)?;
     let seeds = arguments.seeds as usize;
     let settings = settings(arguments)?;
@@ -62,11 +60,11 @@ pub fn run(arguments: &CheckBehaviour, context: &Context) -> Result<(), CliError
     let controls = scenes.iter().filter(|(part, ..)| PARTS[*part].control.is_some()).count();
     let events = seeds * (scenes.len() + controls);
     let runner = TrialRunner::new(&folder, settings, events, context);
-    let made = make_all(&arguments.jobs, scenes.len() * seeds, |k| {
+    let made = make_all(arguments.jobs.threads(), scenes.len() * seeds, |k| {
         let (part, id, scene) = &scenes[k / seeds];
         runner.trial(&PARTS[*part], id, scene, k % seeds)
     })?;
-    let Some(trials) = made else { return Err(CliError::Interrupted(arguments.out.clone())) };
+    let Some(trials) = made else { return Err(RunError::Interrupted(arguments.out.clone())) };
     let mut trials = trials.into_iter();
     let results: Vec<SceneResult> = scenes
         .iter()
@@ -93,16 +91,16 @@ pub fn run(arguments: &CheckBehaviour, context: &Context) -> Result<(), CliError
 }
 
 /// The settings of the events, with the parameters of a file if one is given.
-fn settings(arguments: &CheckBehaviour) -> Result<SimulationSettings, CliError> {
+fn settings(arguments: &CheckBehaviour) -> Result<SimulationSettings, RunError> {
     let Some(file) = &arguments.parameters else { return arguments.effort.settings() };
     let minds = parameters::read(file)?;
     // What was fitted with few simulations is checked with as many as an agent has that acts.
     let simulations = MindParameters::of(minds.kind()).simulations();
-    arguments.effort.settings_with(minds.with_simulations(simulations))
+    arguments.effort.effort().settings_with(minds.with_simulations(simulations))
 }
 
 /// The requested scenes: part of the table, id, scene.
-fn scenes(arguments: &CheckBehaviour) -> Result<Vec<(usize, String, Scene)>, CliError> {
+fn scenes(arguments: &CheckBehaviour) -> Result<Vec<(usize, String, Scene)>, RunError> {
     let mut scenes = Vec::new();
     let wanted = |row: u8| arguments.row.is_empty() || arguments.row.contains(&row);
     let folders = arguments.folders();
@@ -111,7 +109,7 @@ fn scenes(arguments: &CheckBehaviour) -> Result<Vec<(usize, String, Scene)>, Cli
             for recording in phase_events::read(&file)? {
                 let (id, scene) = (recording.id, recording.scene);
                 if let Some(rule) = problem(&scene) {
-                    return Err(CliError::Usage(format!("{}: event {id}: {rule}", file.display())));
+                    return Err(RunError::Usage(format!("{}: event {id}: {rule}", file.display())));
                 }
                 scenes.push((k, id, scene));
             }
@@ -130,7 +128,7 @@ fn problem(scene: &Scene) -> Option<String> {
 
 /// Prepares the folder. The results of a finished check are replaced; those of an unfinished one are kept and
 /// used if they are of this executable.
-fn prepare(out: &Path, run: &Run) -> Result<Folder, CliError> {
+fn prepare(out: &Path, run: &Run) -> Result<Folder, RunError> {
     folder::inspect(out, REPORT_FILE)?;
     let folder = Folder::claim(out, run)?;
     atomic::remove(&out.join(REPORT_FILE))?;
@@ -145,7 +143,7 @@ fn prepare(out: &Path, run: &Run) -> Result<Folder, CliError> {
 }
 
 /// Contact sheets of a scene's first event and of its first failure.
-fn draw(runner: &TrialRunner, sheets: &Path, result: &SceneResult, scene: &Scene) -> Result<(), CliError> {
+fn draw(runner: &TrialRunner, sheets: &Path, result: &SceneResult, scene: &Scene) -> Result<(), RunError> {
     let part = &PARTS[result.part];
     let first = result.trials.first().map(|trial| (trial, ""));
     let failure = result.trials.iter().find(|trial| !trial.verdict.success).map(|trial| (trial, "-failure"));
@@ -163,10 +161,10 @@ fn sheet(
     id: &str,
     scene: &Scene,
     trial: &Trial,
-) -> Result<(), CliError> {
+) -> Result<(), RunError> {
     let index = trial.seed as usize - 1;
     let Some(event) = runner.event(part, id, scene, index)? else {
-        return Err(CliError::Interrupted(path.to_owned()));
+        return Err(RunError::Interrupted(path.to_owned()));
     };
     let items: Vec<RenderedState<'_>> = event
         .frames()
@@ -176,11 +174,11 @@ fn sheet(
     picture::write_sheet(path, id, &event.scene.physics(), Palette::PAPER, &items, SHEET_FRAMES)
 }
 
-fn complete(arguments: &CheckBehaviour, folder: Folder, report: &Value) -> Result<(), CliError> {
+fn complete(arguments: &CheckBehaviour, folder: Folder, report: &Value) -> Result<(), RunError> {
     let text = format!("{report:#}\n");
     atomic::write(&folder.path().join(REPORT_FILE), text.as_bytes())?;
     if let Some(path) = arguments.json.as_ref().filter(|_| !to_stdout(arguments)) {
-        atomic::write(path, text.as_bytes()).map_err(CliError::Output)?;
+        atomic::write(path, text.as_bytes()).map_err(RunError::Output)?;
     }
     Ok(folder.finish()?)
 }

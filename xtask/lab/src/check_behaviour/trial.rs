@@ -2,15 +2,7 @@
 
 use super::{judge, report::Trial, rows::BehaviourTest};
 use core::ops::ControlFlow;
-use phase_cli::{
-    console,
-    context::Context,
-    engine,
-    error::CliError,
-    event_writer::{self, settings_value},
-    interrupt,
-    progress::Progress,
-};
+use phase_cli::{context::Context, progress::Progress};
 use phase_dataset::event_cache::EventCache;
 use phase_event::Event;
 use phase_evidence::Track;
@@ -20,6 +12,13 @@ use phase_files::{
     run,
 };
 use phase_model::{AgentId, Attitude, Flip, Scene};
+use phase_runs::{
+    engine,
+    error::RunError,
+    event_writer::{self, settings_value},
+    interrupt::requested,
+    words,
+};
 use phase_sim::SimulationSettings;
 use serde_json::json;
 use std::{path::PathBuf, time::Instant};
@@ -51,7 +50,7 @@ impl TrialRunner {
     ) -> Self {
         let program = event_writer::program();
         let progress =
-            context.progress(&format!("simulating {}", console::events(events)), events, settings.max_steps);
+            context.progress(&format!("simulating {}", words::events(events)), events, settings.max_steps);
         Self { settings, cache: folder.cache(), program, progress }
     }
 
@@ -62,7 +61,7 @@ impl TrialRunner {
         id: &str,
         scene: &Scene,
         index: usize,
-    ) -> Result<Option<Trial>, CliError> {
+    ) -> Result<Option<Trial>, RunError> {
         let Some(event) = self.event(part, id, scene, index)? else { return Ok(None) };
         let control = match part.control {
             Some(agent) => {
@@ -83,7 +82,7 @@ impl TrialRunner {
         id: &str,
         scene: &Scene,
         index: usize,
-    ) -> Result<Option<Event>, CliError> {
+    ) -> Result<Option<Event>, RunError> {
         let settings = self.settings_of(part);
         self.play(&format!("{}.{id}", key(part)), mirrored(scene, index), index, &settings)
     }
@@ -96,7 +95,7 @@ impl TrialRunner {
         scene: &Scene,
         index: usize,
         agent: AgentId,
-    ) -> Result<Option<Event>, CliError> {
+    ) -> Result<Option<Event>, RunError> {
         let mut scene = mirrored(scene, index);
         scene.agents[agent].attitude = Attitude::Neutral;
         let settings = SimulationSettings { idle: Some(agent), ..self.settings_of(part) };
@@ -120,11 +119,11 @@ impl TrialRunner {
         scene: Scene,
         index: usize,
         settings: &SimulationSettings,
-    ) -> Result<Option<Event>, CliError> {
+    ) -> Result<Option<Event>, RunError> {
         let seed = index as u64 + 1;
         let name = format!("{name}.{seed}");
         let scene_value = serde_json::to_value(&scene)
-            .map_err(|source| CliError::Serialise { what: "the scene", source })?;
+            .map_err(|source| RunError::Serialise { what: "the scene", source })?;
         let facts = json!({
             "program": hexadecimal(&self.program), "settings": settings_value(settings)?, "scene": scene_value,
         });
@@ -137,7 +136,7 @@ impl TrialRunner {
         let mut on_step = |_: &_| {
             steps += 1;
             self.progress.step();
-            if interrupt::requested() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+            if requested() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         };
         let Some(event) = engine::simulate(&name, &scene, seed, settings, &mut on_step)? else {
             return Ok(None);

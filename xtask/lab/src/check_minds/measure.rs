@@ -3,10 +3,11 @@
 use super::{motion::Motion, recognition::Recognition, role::Role, truth};
 use core::ops::ControlFlow;
 use cpu_time::ThreadTime;
-use phase_cli::{engine, error::CliError, interrupt, progress::Progress};
+use phase_cli::progress::Progress;
 use phase_event::{MethodError, Recording};
 use phase_evidence::Track;
 use phase_model::{AGENT_COUNT, AgentId, EventKind};
+use phase_runs::{engine, error::RunError, interrupt::requested};
 use phase_sim::SimulationSettings;
 use phase_simple::{
     Algorithm, Cues, ImaginedAgents, InferenceSettings, InversePlanningSettings, PreparedEvent,
@@ -80,14 +81,14 @@ impl Measurement {
         &self,
         recording: &Recording,
         progress: &Progress,
-    ) -> Result<Option<MeasuredEvent>, CliError> {
+    ) -> Result<Option<MeasuredEvent>, RunError> {
         let id = &recording.id;
-        let failed = |error: MethodError| CliError::Method { id: id.clone(), source: error };
+        let failed = |error: MethodError| RunError::Method { id: id.clone(), source: error };
         let mut units = 0;
         let mut tick = || {
             units += 1;
             progress.step();
-            if interrupt::requested() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+            if requested() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         };
         let scene = &recording.scene;
         let truth = truth(scene);
@@ -99,7 +100,7 @@ impl Measurement {
             chances.map_err(|error| failed(MethodError::new(error)))
         };
         let chances = [chances(AgentId::ZERO)?, chances(AgentId::ONE)?];
-        let deviations = |agent| -> Result<Vec<f64>, CliError> {
+        let deviations = |agent| -> Result<Vec<f64>, RunError> {
             let decisions = prepared.simulate_agent(&truth, agent, RESYNC_INTERVAL);
             let decisions = decisions.map_err(|error| failed(MethodError::new(error)))?;
             Ok(decisions.iter().map(|decided| decided.deviation).collect())
@@ -144,7 +145,7 @@ impl Measurement {
         recording: &Recording,
         seed: u64,
         tick: &mut dyn FnMut() -> ControlFlow<()>,
-    ) -> Result<Option<Simulated>, CliError> {
+    ) -> Result<Option<Simulated>, RunError> {
         let steps = recording.trajectory.steps();
         let settings = SimulationSettings {
             max_steps: steps,

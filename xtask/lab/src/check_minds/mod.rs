@@ -13,21 +13,13 @@ mod table;
 use crate::{error::LabError, json_file};
 use measure::Measurement;
 use options::CheckMinds;
-use phase_cli::{
-    console::{self, print_result},
-    context::Context,
-    engine::GENERATOR,
-    error::CliError,
-    interrupt,
-    output::json_text,
-    parallel::make_all,
-    source::EventInput,
-};
+use phase_cli::{console::print_result, context::Context, interrupt, output::json_text};
 use phase_eval::goals::canonical;
 use phase_event::Recording;
 use phase_files::atomic;
 use phase_minds::{MindKind, MindParameters, PublishedParameters};
 use phase_model::{AgentId, Attitude, EventKind, Goal, Scene};
+use phase_runs::{engine::GENERATOR, error::RunError, parallel::make_all, source::EventInput, words};
 use phase_simple::{Hypothesis, ImaginedAgents, InferenceSettings, Intent};
 use report::MindsReport;
 use serde_json::{Value, json};
@@ -56,9 +48,10 @@ pub fn run(arguments: &CheckMinds, context: &Context) -> Result<(), LabError> {
     let plan = plan(arguments, agents(arguments, parameters, &recordings)?)?;
     interrupt::listen();
     let units = recordings.iter().map(|recording| plan.units(recording.trajectory.steps())).max();
-    let activity = format!("measuring {}", console::events(recordings.len()));
+    let activity = format!("measuring {}", words::events(recordings.len()));
     let progress = context.progress(&activity, recordings.len(), units.unwrap_or(0));
-    let events = make_all(&arguments.jobs, recordings.len(), |k| plan.measure(&recordings[k], &progress))?;
+    let events =
+        make_all(arguments.jobs.threads(), recordings.len(), |k| plan.measure(&recordings[k], &progress))?;
     drop(progress);
     let Some(events) = events else { return Err(LabError::Interrupted) };
     let report = MindsReport::of(&events, description(arguments, &plan));
@@ -68,17 +61,17 @@ pub fn run(arguments: &CheckMinds, context: &Context) -> Result<(), LabError> {
             print_result(text.trim_end());
             return Ok(());
         }
-        atomic::write(out, text.as_bytes()).map_err(CliError::Output)?;
+        atomic::write(out, text.as_bytes()).map_err(RunError::Output)?;
     }
     print_result(table::print(&report).trim_end());
     Ok(())
 }
 
 /// Keeps the events with these ids, or all of them if there are none.
-fn retain(recordings: &mut Vec<Recording>, ids: &[String], file: &Path) -> Result<(), CliError> {
+fn retain(recordings: &mut Vec<Recording>, ids: &[String], file: &Path) -> Result<(), RunError> {
     for id in ids {
         if !recordings.iter().any(|recording| recording.id == *id) {
-            return Err(CliError::Usage(format!("{}: has no event {id}", file.display())));
+            return Err(RunError::Usage(format!("{}: has no event {id}", file.display())));
         }
     }
     recordings.retain(|recording| ids.is_empty() || ids.contains(&recording.id));
@@ -91,19 +84,19 @@ fn agents(
     arguments: &CheckMinds,
     given: Option<MindParameters>,
     recordings: &[Recording],
-) -> Result<ImaginedAgents, CliError> {
+) -> Result<ImaginedAgents, RunError> {
     let minds = given.unwrap_or_else(|| MindParameters::of(arguments.minds.unwrap_or_default()));
     if let Some(kind) = arguments.minds.filter(|kind| *kind != minds.kind()) {
         let asked = kind.name();
         let found = minds.kind().name();
-        return Err(CliError::Usage(format!("--minds {asked}: the parameters are those of {found} minds")));
+        return Err(RunError::Usage(format!("--minds {asked}: the parameters are those of {found} minds")));
     }
     let recorded = recordings.iter().all(|recording| recording.simulation.is_none());
     Ok(ImaginedAgents { one_way_turns: minds.kind() == MindKind::Published && recorded, minds })
 }
 
 /// The measurement of such agents.
-fn plan(arguments: &CheckMinds, agents: ImaginedAgents) -> Result<Measurement, CliError> {
+fn plan(arguments: &CheckMinds, agents: ImaginedAgents) -> Result<Measurement, RunError> {
     let simulations = match agents.minds.kind() {
         MindKind::Phase => SIMULATIONS,
         MindKind::Published => PUBLISHED_SIMULATIONS,
@@ -117,7 +110,7 @@ fn plan(arguments: &CheckMinds, agents: ImaginedAgents) -> Result<Measurement, C
         minds if arguments.searches.is_none() => minds,
         minds => {
             let rule = format!("{} minds search once a decision", minds.kind().name());
-            return Err(CliError::Usage(format!("--searches: {rule}")));
+            return Err(RunError::Usage(format!("--searches: {rule}")));
         }
     };
     let open_loop = agents.minds.with_simulations(arguments.simulations_open_loop as usize);
@@ -138,7 +131,7 @@ pub(crate) fn recordings(
     file: &Path,
     only: Option<EventKind>,
     context: &Context,
-) -> Result<Vec<Recording>, CliError> {
+) -> Result<Vec<Recording>, RunError> {
     let source = EventInput::open(file, &[], context)?;
     let mut recordings =
         (0..source.len()).map(|k| source.load(k).map(Cow::into_owned)).collect::<Result<Vec<_>, _>>()?;
@@ -147,10 +140,10 @@ pub(crate) fn recordings(
     }
     if recordings.is_empty() {
         let what = only.map_or_else(String::new, |kind| format!(" of the kind {}", kind.name()));
-        return Err(CliError::Usage(format!("{}: has no events{what}", file.display())));
+        return Err(RunError::Usage(format!("{}: has no events{what}", file.display())));
     }
     match recordings.iter().find(|recording| recording.trajectory.steps() == 0) {
-        Some(recording) => Err(CliError::StartAlone {
+        Some(recording) => Err(RunError::StartAlone {
             file: file.to_owned(),
             id: recording.id.clone(),
             needed: "to compare minds with it, at least one step is needed",

@@ -10,10 +10,9 @@ use phase_calibration::{
     ColdForward, Engine, Probe, ReadError, Replay, Report, Run, StatelessErrors, WarmForward, WorldEngine,
     horizon_errors, probes_report, replay_reports, run_reports,
 };
-use phase_cli::{
-    console::print_result, context::Context, error::CliError, output::json_text, source::EventInput,
-};
+use phase_cli::{console::print_result, context::Context, error::CliError, output::json_text};
 use phase_files::{atomic, json};
+use phase_runs::{error::RunError, source::EventInput};
 use serde::Serialize;
 use serde_json::Value;
 use std::{borrow::Cow, path::Path};
@@ -36,7 +35,7 @@ pub fn run(arguments: &CheckPhysics, context: &Context) -> Result<(), LabError> 
     let files = [&arguments.probes, &arguments.runs, &arguments.events];
     if files.iter().all(|file| file.is_none()) {
         let rule = "check-physics needs at least one of --probes, --runs and --events";
-        return Err(CliError::Usage(rule.into()).into());
+        return Err(RunError::Usage(rule.into()).into());
     }
     if let Some(out) = &arguments.json {
         json_file::check("--json", out, files.into_iter().flatten().map(|file| file.as_path()))?;
@@ -65,7 +64,7 @@ pub fn run(arguments: &CheckPhysics, context: &Context) -> Result<(), LabError> 
             print_result(text.trim_end());
             return Ok(());
         }
-        atomic::write(out, text.as_bytes()).map_err(CliError::Output)?;
+        atomic::write(out, text.as_bytes()).map_err(RunError::Output)?;
     }
     print_result(table::print(&report, &targets, records.mirrored).trim_end());
     Ok(())
@@ -103,13 +102,13 @@ impl Records {
 }
 
 fn read<T>(file: &Path, parse: impl Fn(&Value) -> Result<T, ReadError>) -> Result<T, LabError> {
-    let value = json::read(file).map_err(CliError::File)?;
+    let value = json::read(file).map_err(RunError::File)?;
     parse(&value).map_err(|source| LabError::Calibration { file: file.to_owned(), source })
 }
 
 /// The events of a file that can be replayed, and the number of those that cannot only because they are
 /// reflected.
-fn replays(file: &Path, context: &Context) -> Result<(Vec<Replay>, usize), CliError> {
+fn replays(file: &Path, context: &Context) -> Result<(Vec<Replay>, usize), RunError> {
     let source = EventInput::open(file, &[], context)?;
     let mut recordings =
         (0..source.len()).map(|k| source.load(k).map(Cow::into_owned)).collect::<Result<Vec<_>, _>>()?;
@@ -118,7 +117,7 @@ fn replays(file: &Path, context: &Context) -> Result<(Vec<Replay>, usize), CliEr
     let mirrored = recordings.iter().filter(|recording| recording.scene.layout.flip().is_some()).count();
     if replays.is_empty() {
         let rule = "field `events` must hold an event with `recovered_actions` that is not mirrored";
-        return Err(CliError::Usage(format!("{}: {rule}", file.display())));
+        return Err(RunError::Usage(format!("{}: {rule}", file.display())));
     }
     Ok((replays, mirrored))
 }

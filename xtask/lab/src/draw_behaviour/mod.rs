@@ -12,11 +12,7 @@ mod walk;
 use crate::error::LabError;
 use candidate::Candidate;
 use clap::{Args, value_parser};
-use phase_cli::{
-    console::print_message,
-    error::CliError,
-    parallel::{Jobs, make_all},
-};
+use phase_cli::{console::print_message, parallel::Jobs};
 use phase_event::{Controller, Recording, Trajectory};
 use phase_files::{WriteError, atomic};
 use phase_model::{
@@ -24,6 +20,7 @@ use phase_model::{
     layout::USED_BASES,
     random::{Purpose, stream},
 };
+use phase_runs::{error::RunError, parallel::make_all};
 use phase_sampler::{Request, sample};
 use recipes::{RECIPES, Recipe};
 use std::{fs, path::PathBuf};
@@ -68,9 +65,9 @@ pub struct DrawError {
 /// Runs the command.
 ///
 /// # Errors
-/// [`DrawError`] if a part has no scene, [`CliError`] if a file cannot be written.
+/// [`DrawError`] if a part has no scene, [`RunError`] if a file cannot be written.
 pub fn run(arguments: &DrawBehaviour) -> Result<(), LabError> {
-    let drawn = make_all(&arguments.jobs, RECIPES.len(), |index| {
+    let drawn = make_all(arguments.jobs.threads(), RECIPES.len(), |index| {
         let scenes = draw(index, arguments.seed, usize::from(arguments.scenes));
         if let Ok(scenes) = &scenes {
             let ids: Vec<&str> = scenes.iter().map(|scene| scene.id.as_str()).collect();
@@ -78,15 +75,15 @@ pub fn run(arguments: &DrawBehaviour) -> Result<(), LabError> {
         }
         Ok(Some(scenes))
     })?;
-    let Some(drawn) = drawn else { return Err(CliError::Interrupted(arguments.out.clone()).into()) };
+    let Some(drawn) = drawn else { return Err(RunError::Interrupted(arguments.out.clone()).into()) };
     let drawn = drawn.into_iter().collect::<Result<Vec<_>, _>>()?;
     let out = &arguments.out;
     let failed = |source| WriteError { path: out.clone(), action: "create the folder", source };
-    fs::create_dir_all(out).map_err(failed).map_err(CliError::Output)?;
+    fs::create_dir_all(out).map_err(failed).map_err(RunError::Output)?;
     for (recipe, scenes) in RECIPES.iter().zip(&drawn) {
-        let text = phase_event::to_json(scenes).map_err(CliError::from)?;
+        let text = phase_event::to_json(scenes).map_err(RunError::from)?;
         let file = out.join(format!("{}.json", recipe.part));
-        atomic::write(&file, text.as_bytes()).map_err(CliError::Output)?;
+        atomic::write(&file, text.as_bytes()).map_err(RunError::Output)?;
     }
     Ok(())
 }

@@ -11,13 +11,11 @@ use crate::{
     json_file,
 };
 use core::ops::ControlFlow;
-use phase_cli::{
-    console::print_result, context::Context, effort::MindOptions, error::CliError, eval::methods, interrupt,
-    output::json_text,
-};
+use phase_cli::{console::print_result, context::Context, interrupt, output::json_text};
 use phase_eval::trajectories::{Errors, PREDICTED_STEPS, WATCHED_STEPS};
 use phase_event::{Forecaster, MethodError, MethodResult, Prediction, Recording};
 use phase_model::{Forecast, Vec2};
+use phase_runs::{effort::MindChoice, error::RunError, eval::methods};
 use phase_simple::{Continuation, ForecastSettings, Futures, Simple, continuations, hindcast_error};
 use serde::{Deserialize, Serialize};
 
@@ -72,8 +70,8 @@ pub fn run(arguments: &FitEvents, context: &Context) -> Result<(), LabError> {
     let own = arguments.read_all(&arguments.events, context)?;
     let others = arguments.read_all(&arguments.held_out, context)?;
     interrupt::listen();
-    let learnt = methods::forecaster(LEARNT, None, &MindOptions::default())?;
-    let simple = Simple::bundled().map_err(CliError::from)?;
+    let learnt = methods::forecaster(LEARNT, None, &MindChoice::default())?;
+    let simple = Simple::bundled().map_err(RunError::from)?;
     let kept = KeptFigures::new("", arguments, context)?;
     let known = |recordings: &[Recording]| {
         let long: Vec<&Recording> =
@@ -82,7 +80,7 @@ pub fn run(arguments: &FitEvents, context: &Context) -> Result<(), LabError> {
         let each = hypotheses * (1 + repeats);
         kept.of("simulating the futures", &long, each, |recording, tick| {
             let found = simulated(recording, &simple, &*learnt, arguments.seed, tick);
-            found.map_err(|source| CliError::Method { id: recording.id.clone(), source })
+            found.map_err(|source| RunError::Method { id: recording.id.clone(), source })
         })
     };
     let (own, others) = (known(&own)?, known(&others)?);

@@ -17,15 +17,10 @@ mod weights;
 use crate::{check_minds::parameters, error::LabError, fit_events::KeptFigures, fit_minds::folds, json_file};
 use grid::Grid;
 use options::FitInference;
-use phase_cli::{
-    console::{self, print_result},
-    context::Context,
-    error::CliError,
-    interrupt,
-    output::json_text,
-};
+use phase_cli::{console::print_result, context::Context, interrupt, output::json_text};
 use phase_event::Recording;
 use phase_model::AGENT_COUNT;
+use phase_runs::{error::RunError, words};
 use phase_simple::{
     Algorithm, AlternativeAgents, ImaginedAgents, InferenceSettings, IntentNetwork, InversePlanningSettings,
 };
@@ -45,8 +40,8 @@ pub fn run(arguments: &FitInference, context: &Context) -> Result<(), LabError> 
     let recordings = files.read_all(&files.events, context)?;
     let (own, folds) = (recordings.len(), usize::from(arguments.folds));
     if own < folds {
-        let rule = format!("--events: {}, fewer than --folds {folds}", console::events(own));
-        return Err(CliError::Usage(rule).into());
+        let rule = format!("--events: {}, fewer than --folds {folds}", words::events(own));
+        return Err(RunError::Usage(rule).into());
     }
     let mut held_out = Vec::new();
     for file in &files.held_out {
@@ -98,7 +93,7 @@ pub fn run(arguments: &FitInference, context: &Context) -> Result<(), LabError> 
 }
 
 /// SIMPLE's settings with the minds that were asked for: both kinds, unless one was named or given.
-fn settings(arguments: &FitInference) -> Result<InferenceSettings, CliError> {
+fn settings(arguments: &FitInference) -> Result<InferenceSettings, RunError> {
     let one = InferenceSettings::default();
     let given = arguments.parameters.as_deref().map(parameters::read).transpose()?;
     let mut settings = match (given, arguments.minds) {

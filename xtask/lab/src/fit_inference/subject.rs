@@ -3,9 +3,9 @@
 use super::weights::Weights;
 use crate::check_minds::{is_true, recognition::Recognition, truth};
 use core::ops::ControlFlow;
-use phase_cli::error::CliError;
 use phase_event::{MethodError, ObservedEvent, Recording};
 use phase_model::{AGENT_COUNT, AgentId, EventKind, Goal, Strength};
+use phase_runs::error::RunError;
 use phase_simple::{
     ActionLikelihoods, Budget, Hypothesis, ImaginedAgents, Intent, IntentEvidence, IntentNetwork,
     InversePlanningSettings, Posterior, PreparedEvent, Proposal, UniformStrength, choice::Chance, cue::GAMMA,
@@ -67,8 +67,8 @@ impl EventEvidence {
         network: &Arc<IntentNetwork>,
         seed: u64,
         tick: &mut dyn FnMut() -> ControlFlow<()>,
-    ) -> Result<Option<Self>, CliError> {
-        let failed = |error| CliError::Method { id: recording.id.clone(), source: error };
+    ) -> Result<Option<Self>, RunError> {
+        let failed = |error| RunError::Method { id: recording.id.clone(), source: error };
         let observed = recording.observed().map_err(|error| failed(MethodError::new(error)))?;
         let cue = cue(&observed);
         let assumed = AgentId::ALL.map(|agent| cue.most_likely_goal(agent));
@@ -93,8 +93,8 @@ impl EventEvidence {
 
 impl Subject {
     /// An event with the evidence on it.
-    pub(super) fn new(recording: &Recording, evidence: EventEvidence) -> Result<Self, CliError> {
-        let failed = |error| CliError::Method { id: recording.id.clone(), source: MethodError::new(error) };
+    pub(super) fn new(recording: &Recording, evidence: EventEvidence) -> Result<Self, RunError> {
+        let failed = |error| RunError::Method { id: recording.id.clone(), source: MethodError::new(error) };
         let observed = recording.observed().map_err(failed)?;
         let objects = observed.object_sizes().len();
         Ok(Self {

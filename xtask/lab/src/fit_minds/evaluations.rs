@@ -5,15 +5,10 @@ use crate::{
     error::LabError,
     evaluations_file::{EvaluationsFile, Line},
 };
-use phase_cli::{
-    context::Context,
-    error::CliError,
-    event_writer::program,
-    output::json_text,
-    parallel::{Jobs, make_all},
-};
+use phase_cli::{context::Context, error::CliError, output::json_text, parallel::Jobs};
 use phase_files::checksum::{hexadecimal, sha256};
 use phase_minds::PhaseParameters;
+use phase_runs::{error::RunError, event_writer::program, parallel::make_all};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Hexadecimal digits of a key: 128 bits.
@@ -78,7 +73,7 @@ impl<'a> Evaluations<'a> {
     ) -> Result<Vec<Figures>, LabError> {
         let progress =
             self.context.progress_over(&format!("{activity}: {} evaluations", tasks.len()), tasks.len());
-        let computed = make_all(self.jobs, tasks.len(), |k| {
+        let computed = make_all(self.jobs.threads(), tasks.len(), |k| {
             let (key, (parameters, event)) = &tasks[k];
             let subject = &self.subjects[*event];
             let Some(figures) = subject.evaluate(*parameters)? else { return Ok(None) };
@@ -90,7 +85,7 @@ impl<'a> Evaluations<'a> {
         })?;
         drop(progress);
         computed.ok_or_else(|| match &self.file {
-            Some(file) => CliError::Interrupted(file.path().to_owned()).into(),
+            Some(file) => RunError::Interrupted(file.path().to_owned()).into(),
             None => LabError::Interrupted,
         })
     }

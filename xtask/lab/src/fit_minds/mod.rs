@@ -20,16 +20,10 @@ use ablation::Ablation;
 use evaluations::Evaluations;
 use options::FitMinds;
 use parameter::{PARAMETERS, Parameter};
-use phase_cli::{
-    console::{self, print_result},
-    context::Context,
-    error::CliError,
-    interrupt,
-    output::json_text,
-    parallel::make_all,
-};
+use phase_cli::{console::print_result, context::Context, interrupt, output::json_text};
 use phase_event::{MethodError, ObservedEvent, Recording};
 use phase_minds::{MindParameters, PhaseParameters};
+use phase_runs::{error::RunError, parallel::make_all, words};
 use search::Fit;
 use std::path::Path;
 use subject::{Method, Subject};
@@ -43,7 +37,7 @@ pub fn run(arguments: &FitMinds, context: &Context) -> Result<(), LabError> {
         let inputs = [Some(&arguments.events), arguments.generated.as_ref(), arguments.parameters.as_ref()];
         json_file::check("--out", out, inputs.into_iter().flatten().map(|file| file.as_path()))?;
         if out == Path::new(json_file::STDOUT) {
-            return Err(CliError::Usage("--out -: a file is needed".into()).into());
+            return Err(RunError::Usage("--out -: a file is needed".into()).into());
         }
     }
     let start = start(arguments)?;
@@ -51,8 +45,8 @@ pub fn run(arguments: &FitMinds, context: &Context) -> Result<(), LabError> {
     let own = recordings.len();
     if !arguments.ablation && own < usize::from(arguments.folds) {
         let (file, folds) = (arguments.events.display(), arguments.folds);
-        let rule = format!("{file}: has {}, fewer than --folds {folds}", console::events(own));
-        return Err(CliError::Usage(rule).into());
+        let rule = format!("{file}: has {}, fewer than --folds {folds}", words::events(own));
+        return Err(RunError::Usage(rule).into());
     }
     if let Some(file) = &arguments.generated {
         recordings.extend(check_minds::recordings(file, None, context)?);
@@ -86,13 +80,13 @@ pub fn run(arguments: &FitMinds, context: &Context) -> Result<(), LabError> {
 }
 
 /// The parameters that a fit starts from.
-fn start(arguments: &FitMinds) -> Result<PhaseParameters, CliError> {
+fn start(arguments: &FitMinds) -> Result<PhaseParameters, RunError> {
     let Some(file) = &arguments.parameters else { return Ok(PhaseParameters::default()) };
     match check_minds::parameters::read(file)? {
         MindParameters::Phase(parameters) => Ok(parameters),
         MindParameters::Published(_) => {
             let rule = "the parameters of published minds are not fitted";
-            Err(CliError::Usage(format!("{}: {rule}", file.display())))
+            Err(RunError::Usage(format!("{}: {rule}", file.display())))
         }
     }
 }
@@ -101,7 +95,7 @@ fn start(arguments: &FitMinds) -> Result<PhaseParameters, CliError> {
 ///
 /// # Errors
 /// If one of them starts from a value that it may not have.
-fn chosen(arguments: &FitMinds, start: &PhaseParameters) -> Result<Vec<&'static Parameter>, CliError> {
+fn chosen(arguments: &FitMinds, start: &PhaseParameters) -> Result<Vec<&'static Parameter>, RunError> {
     let wanted =
         |it: &&Parameter| arguments.only.is_empty() || arguments.only.iter().any(|name| name == it.name);
     let chosen: Vec<&'static Parameter> = PARAMETERS.iter().filter(wanted).collect();
@@ -112,16 +106,16 @@ fn chosen(arguments: &FitMinds, start: &PhaseParameters) -> Result<Vec<&'static 
             let file =
                 arguments.parameters.as_ref().map_or_else(String::new, |it| format!("{}: ", it.display()));
             let rule = format!("{file}field `{name}` is {value}, but must be from {low} to {high}");
-            return Err(CliError::Usage(rule));
+            return Err(RunError::Usage(rule));
         }
     }
     Ok(chosen)
 }
 
 /// Prepares what an observer sees of each event.
-fn observed(recordings: &[Recording]) -> Result<Vec<ObservedEvent>, CliError> {
+fn observed(recordings: &[Recording]) -> Result<Vec<ObservedEvent>, RunError> {
     let one = |recording: &Recording| {
-        let failed = |error| CliError::Method { id: recording.id.clone(), source: MethodError::new(error) };
+        let failed = |error| RunError::Method { id: recording.id.clone(), source: MethodError::new(error) };
         recording.observed().map_err(failed)
     };
     recordings.iter().map(one).collect()
@@ -136,9 +130,9 @@ fn prepare<'a>(
     arguments: &FitMinds,
     context: &Context,
 ) -> Result<Vec<Subject<'a>>, LabError> {
-    let activity = format!("preparing {}", console::events(recordings.len()));
+    let activity = format!("preparing {}", words::events(recordings.len()));
     let progress = context.progress_over(&activity, recordings.len());
-    let subjects = make_all(&arguments.jobs, recordings.len(), |k| {
+    let subjects = make_all(arguments.jobs.threads(), recordings.len(), |k| {
         let subject = Subject::new(&recordings[k], &observed[k], method, particles)?;
         progress.step();
         Ok(Some(subject))

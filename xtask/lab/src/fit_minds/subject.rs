@@ -2,11 +2,11 @@
 
 use crate::check_minds::{is_true, recognition::Recognition, truth};
 use cpu_time::ThreadTime;
-use phase_cli::{error::CliError, interrupt};
 use phase_event::{MethodError, ObservedEvent, Recording};
 use phase_files::checksum::{hexadecimal, sha256};
 use phase_minds::{MindParameters, PhaseParameters};
 use phase_model::{AGENT_COUNT, AgentId, Attitude, EventKind};
+use phase_runs::{error::RunError, interrupt::requested};
 use phase_simple::{
     Hypothesis, Intent, InversePlanningSettings, Posterior, PreparedEvent,
     choice::{self, ByChoice, Chance, log_likelihood, policy},
@@ -82,7 +82,7 @@ impl<'a> Subject<'a> {
         observed: &'a ObservedEvent,
         method: Method,
         particles: usize,
-    ) -> Result<Self, CliError> {
+    ) -> Result<Self, RunError> {
         let truth = truth(&recording.scene);
         let objects = observed.object_sizes().len();
         for agent in AgentId::ALL {
@@ -90,10 +90,10 @@ impl<'a> Subject<'a> {
             if !meant || truth.attitudes.iter().all(|attitude| *attitude != Attitude::Neutral) {
                 let agent = agent.number();
                 let rule = format!("event {}: no hypothesis has the goal of agent {agent}", recording.id);
-                return Err(CliError::Usage(rule));
+                return Err(RunError::Usage(rule));
             }
         }
-        let text = recording.to_json().map_err(CliError::EventWrite)?;
+        let text = recording.to_json().map_err(RunError::EventWrite)?;
         let minds = PhaseParameters { particles, ..PhaseParameters::default() };
         let prepared = PreparedEvent::new(observed, MindParameters::from(minds), method.seed);
         let likelihoods = choice::action_likelihoods(&prepared, InversePlanningSettings::default().tolerance);
@@ -118,8 +118,8 @@ impl<'a> Subject<'a> {
     ///
     /// # Errors
     /// Invalid parameters of the agents' search.
-    pub(super) fn evaluate(&self, parameters: PhaseParameters) -> Result<Option<Figures>, CliError> {
-        let failed = |error| CliError::Method { id: self.id.to_owned(), source: MethodError::new(error) };
+    pub(super) fn evaluate(&self, parameters: PhaseParameters) -> Result<Option<Figures>, RunError> {
+        let failed = |error| RunError::Method { id: self.id.to_owned(), source: MethodError::new(error) };
         let minds = PhaseParameters { simulations: self.method.simulations, ..parameters };
         let objects = self.prepared.observed().object_sizes().len();
         let begun = ThreadTime::now();
@@ -128,7 +128,7 @@ impl<'a> Subject<'a> {
         let mut under_truth = Vec::new();
         for agent in AgentId::ALL {
             for intent in Intent::all(agent, objects) {
-                if interrupt::requested() {
+                if requested() {
                     return Ok(None);
                 }
                 let others = self.truth.goals[agent.other()];

@@ -9,7 +9,7 @@ mod regression;
 
 use crate::{error::LabError, fit_minds::folds, json_file};
 use options::FitReports;
-use phase_cli::{console::print_result, error::CliError, output::json_text};
+use phase_cli::{console::print_result, output::json_text};
 use phase_eval::{
     Estimate,
     goals::{Agreement, Protocol, REPORT_TRAINING_FORMAT, RecognisedEvent, ReportTraining},
@@ -17,6 +17,7 @@ use phase_eval::{
 };
 use phase_files::{FileError, Problem, json};
 use phase_model::RelationProbabilities;
+use phase_runs::error::RunError;
 use phase_simple::{Impression, ReportModel};
 use regression::{Rated, fit};
 use serde::Deserialize;
@@ -46,7 +47,7 @@ pub fn run(arguments: &FitReports) -> Result<(), LabError> {
     let folds = usize::from(arguments.folds);
     if events.len() < folds {
         let rule = format!("--results: {} rated events, fewer than --folds {folds}", events.len());
-        return Err(CliError::Usage(rule).into());
+        return Err(RunError::Usage(rule).into());
     }
     let named: Vec<_> = events.iter().map(|event| (event.id.as_str(), event.label.kind)).collect();
     let fold_of = folds::assign(&named, folds, arguments.seed);
@@ -80,7 +81,7 @@ pub fn run(arguments: &FitReports) -> Result<(), LabError> {
             format: REPORT_TRAINING_FORMAT.into(),
             events_sha256: sha256.ok_or_else(|| {
                 let rule = "field run.events_sha256 is missing, which --record needs";
-                CliError::Usage(format!("--results {}: {rule}", arguments.results.display()))
+                RunError::Usage(format!("--results {}: {rule}", arguments.results.display()))
             })?,
             seed,
             in_sample: in_sample.clone(),
@@ -126,11 +127,11 @@ struct Input {
     sha256: Option<String>,
 }
 
-fn read(arguments: &FitReports) -> Result<Input, CliError> {
+fn read(arguments: &FitReports) -> Result<Input, RunError> {
     let file = &arguments.results;
-    let fail = |problem: Problem| CliError::File(FileError { file: file.clone(), problem });
+    let fail = |problem: Problem| RunError::File(FileError { file: file.clone(), problem });
     let value = phase_model::json::parse(&json::bytes(file)?).map_err(|error| fail(error.into()))?;
-    let rule = |rule: &str| CliError::Usage(format!("--results {}: {rule}", file.display()));
+    let rule = |rule: &str| RunError::Usage(format!("--results {}: {rule}", file.display()));
     if value["format"] != GOALS_FORMAT {
         return Err(rule(&format!("field format must be {GOALS_FORMAT:?}")));
     }
@@ -162,7 +163,7 @@ fn choose(
     named: &[(&str, phase_model::EventKind)],
     rated: &[Rated],
     seed: u64,
-) -> Result<f64, CliError> {
+) -> Result<f64, RunError> {
     let own: Vec<_> = events.iter().map(|&k| named[k]).collect();
     let fold_of = folds::assign(&own, INNER_FOLDS, seed);
     let mut best = (f64::INFINITY, RIDGES[0]);
@@ -183,10 +184,10 @@ fn choose(
     Ok(best.1)
 }
 
-fn fitted(events: &[usize], rated: &[Rated], ridge: f64) -> Result<ReportModel, CliError> {
+fn fitted(events: &[usize], rated: &[Rated], ridge: f64) -> Result<ReportModel, RunError> {
     let events: Vec<Rated> = events.iter().map(|&k| rated[k]).collect();
     fit(&events, ridge)
-        .map_err(|error| CliError::Usage(format!("--results: the model cannot be fitted: {error}")))
+        .map_err(|error| RunError::Usage(format!("--results: the model cannot be fitted: {error}")))
 }
 
 fn cross_entropy(model: &ReportModel, rated: &Rated) -> f64 {

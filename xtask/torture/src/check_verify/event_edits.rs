@@ -5,13 +5,13 @@ use super::{
     folder::{EditedCopy, Original, failed},
 };
 use crate::error::TortureError;
-use phase_cli::{error::CliError, event_writer::video};
 use phase_dataset::{
     manifest::{CARD_FILE, event_path, video_path},
     splits::Split,
 };
 use phase_event::{Recording, SimulationRecord, to_json};
 use phase_model::random::Pcg64Mcg;
+use phase_runs::{error::RunError, event_writer::video};
 use phase_sampler::Variant;
 use rand::{
     RngExt,
@@ -109,7 +109,7 @@ pub(super) fn write_event(
 ) -> Result<(), TortureError> {
     let SimulationRecord { event, generator, settings } = simulation;
     let text = to_json(&[Recording::of_event(id, event, generator, settings)]);
-    copy.write(&event_path(id), text.map_err(CliError::from)?.as_bytes())
+    copy.write(&event_path(id), text.map_err(RunError::from)?.as_bytes())
 }
 
 pub(super) fn generator_everywhere(

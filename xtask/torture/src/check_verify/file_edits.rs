@@ -6,7 +6,6 @@ use super::{
     folder::{EditedCopy, Original, failed},
 };
 use crate::error::TortureError;
-use phase_cli::{error::CliError, event_writer::video};
 use phase_dataset::{
     croissant::CROISSANT_FILE,
     manifest::{CARD_FILE, DIGEST_FILE, MANIFEST_FILE, Manifest, video_path},
@@ -14,6 +13,7 @@ use phase_dataset::{
     parquet::{FOLDER, ParquetWriter},
 };
 use phase_model::random::Pcg64Mcg;
+use phase_runs::{error::RunError, event_writer::video};
 use rand::{RngExt, seq::IndexedRandom};
 use std::{fs, process::Command};
 
@@ -166,12 +166,12 @@ pub(super) fn parquet(
     }
     let splits = Overview::of(&copy.manifest).splits;
     let path = copy.path();
-    let mut writer = ParquetWriter::new(&path, &splits).map_err(CliError::from)?;
+    let mut writer = ParquetWriter::new(&path, &splits).map_err(RunError::from)?;
     for entry in &copy.manifest.events {
         let Ok(recording) = copy.recording(entry) else { return Ok(false) };
-        writer.push(entry, &recording).map_err(CliError::from)?;
+        writer.push(entry, &recording).map_err(RunError::from)?;
     }
-    writer.finish().map_err(CliError::from)?;
+    writer.finish().map_err(RunError::from)?;
     names.iter().zip(before).try_for_each(|(name, bytes)| copy.write(name, &bytes)).map(|()| true)
 }
 

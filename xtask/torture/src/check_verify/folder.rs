@@ -1,11 +1,6 @@
 //! The dataset that is edited, and copies of it.
 
 use crate::error::TortureError;
-use phase_cli::{
-    context::Context,
-    error::CliError,
-    verify::{self, derived},
-};
 use phase_dataset::{
     croissant::CROISSANT_FILE,
     manifest::{EventEntry, MANIFEST_FILE, Manifest},
@@ -14,6 +9,11 @@ use phase_dataset::{
 use phase_event::Recording;
 use phase_files::{WriteError, atomic, checksum::FileEntry};
 use phase_model::random::Pcg64Mcg;
+use phase_runs::{
+    error::RunError,
+    listener::Silent,
+    verify::{self, derived},
+};
 use rand::seq::{IndexedRandom, SliceRandom};
 use std::{
     collections::BTreeMap,
@@ -167,7 +167,7 @@ impl EditedCopy {
         recordings
             .into_iter()
             .next()
-            .ok_or_else(|| CliError::Usage(format!("{}: holds no event", entry.event.path)).into())
+            .ok_or_else(|| RunError::Usage(format!("{}: holds no event", entry.event.path)).into())
     }
 
     /// Some event.
@@ -190,7 +190,7 @@ impl EditedCopy {
 
     /// Mends what betrays an edit, as far as somebody does. Whether it could be done: not if an event can no
     /// longer be read.
-    pub(super) fn mend(&mut self, mends: Mends, context: &Context) -> Result<bool, TortureError> {
+    pub(super) fn mend(&mut self, mends: Mends) -> Result<bool, TortureError> {
         let path = self.path();
         match mends {
             Mends::Nothing => Ok(true),
@@ -200,7 +200,7 @@ impl EditedCopy {
                 Ok(true)
             }
             Mends::Checksums => self.mend_checksums().map(|()| true),
-            Mends::Everything => self.mend_everything(context),
+            Mends::Everything => self.mend_everything(),
         }
     }
 
@@ -235,7 +235,7 @@ impl EditedCopy {
         Ok(self.manifest.write(&path).map_err(output)?)
     }
 
-    fn mend_everything(&mut self, context: &Context) -> Result<bool, TortureError> {
+    fn mend_everything(&mut self) -> Result<bool, TortureError> {
         let path = self.path();
         for entry in &mut self.manifest.events {
             let Ok(recordings) = phase_events::read(&entry.event.place(&path)) else { return Ok(false) };
@@ -247,7 +247,7 @@ impl EditedCopy {
             *entry = EventEntry { variant, split, set, ..found.map_err(cli)? };
         }
         let Some(command) = derived::command(&path).map_err(cli)? else { return Ok(false) };
-        derived::rewrite((&path, &path), &self.manifest, &command, &context.quiet())?;
+        derived::rewrite((&path, &path), &self.manifest, &command, &Silent)?;
         Ok(true)
     }
 }
@@ -287,10 +287,10 @@ pub(super) fn failed(path: &Path, action: &'static str, source: io::Error) -> To
     output(WriteError { path: path.to_owned(), action, source }).into()
 }
 
-fn output(error: WriteError) -> CliError {
-    CliError::Output(error)
+fn output(error: WriteError) -> RunError {
+    RunError::Output(error)
 }
 
-pub(super) fn cli(error: phase_files::FileError) -> CliError {
+pub(super) fn cli(error: phase_files::FileError) -> RunError {
     error.into()
 }

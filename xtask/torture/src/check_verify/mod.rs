@@ -14,17 +14,15 @@ use crate::error::TortureError;
 use clap::{Args, value_parser};
 use folder::{EditedCopy, Original};
 use kinds::{KINDS, Kind};
-use phase_cli::{
-    console::print_result,
-    context::Context,
-    error::CliError,
-    output::print_json,
-    parallel::Jobs,
-    verify::{self, options::Checks},
-};
+use phase_cli::{console::print_result, context::Context, output::print_json, parallel::Jobs};
 use phase_dataset::manifest::Manifest;
 use phase_files::FileError;
 use phase_model::random::{Purpose, stream};
+use phase_runs::{
+    error::RunError,
+    listener::Silent,
+    verify::{self, Checks},
+};
 use serde_json::{Value, json};
 use std::path::Path;
 
@@ -83,7 +81,7 @@ pub fn run(arguments: &CheckVerify, context: &Context) -> Result<(), TortureErro
     let wanted = |kind: &&Kind| arguments.only.as_ref().is_none_or(|text| kind.name.contains(text.as_str()));
     let kinds: Vec<&Kind> = KINDS.iter().filter(wanted).collect();
     if kinds.is_empty() {
-        return Err(CliError::Usage("--only: no kind of edit has such a name".into()).into());
+        return Err(RunError::Usage("--only: no kind of edit has such a name".into()).into());
     }
     let original = Original::make()?;
     let count = arguments.edits as usize;
@@ -91,7 +89,7 @@ pub fn run(arguments: &CheckVerify, context: &Context) -> Result<(), TortureErro
     let mut counts = vec![[0; Found::ALL.len()]; kinds.len()];
     for number in 0..count {
         let kind = number % kinds.len();
-        let found = one(&original, kinds[kind], number, arguments, context)?;
+        let found = one(&original, kinds[kind], number, arguments)?;
         if found == Found::Missed {
             context.note(format!("edit {number} ({}) was missed", kinds[kind].name));
         }
@@ -108,28 +106,22 @@ fn one(
     kind: &Kind,
     number: usize,
     arguments: &CheckVerify,
-    context: &Context,
 ) -> Result<Found, TortureError> {
     let mut random = stream(arguments.seed, Purpose::Event, number as u64);
     for _ in 0..MOST_DRAWS {
         let mut copy = original.copy()?;
         let made = (kind.make)(&mut copy, &mut random, original)?;
-        if made && copy.mend(kind.mends, context)? && original.differs(&copy)? {
-            return look(&copy, original, arguments, context);
+        if made && copy.mend(kind.mends)? && original.differs(&copy)? {
+            return look(&copy, original, arguments);
         }
     }
     let sentence = format!("no edit of the kind {:?} changes anything", kind.name);
-    Err(CliError::Usage(sentence).into())
+    Err(RunError::Usage(sentence).into())
 }
 
-fn look(
-    copy: &EditedCopy,
-    original: &Original,
-    arguments: &CheckVerify,
-    context: &Context,
-) -> Result<Found, TortureError> {
+fn look(copy: &EditedCopy, original: &Original, arguments: &CheckVerify) -> Result<Found, TortureError> {
     let folder = copy.path();
-    let with = |checks: Checks| problems(&folder, &checks, arguments, context);
+    let with = |checks: Checks| problems(&folder, &checks, arguments);
     if with(Checks::default())? {
         return Ok(Found::Files);
     }
@@ -144,17 +136,12 @@ fn look(
 }
 
 /// Whether something is found wrong.
-fn problems(
-    folder: &Path,
-    checks: &Checks,
-    arguments: &CheckVerify,
-    context: &Context,
-) -> Result<bool, TortureError> {
+fn problems(folder: &Path, checks: &Checks, arguments: &CheckVerify) -> Result<bool, TortureError> {
     let manifest: Result<Manifest, FileError> = verify::manifest(folder);
     match manifest {
         Err(_) => Ok(true),
         Ok(manifest) => {
-            let found = verify::problems(folder, &manifest, checks, &arguments.jobs, &context.quiet())?;
+            let found = verify::problems(folder, &manifest, checks, arguments.jobs.given(), &Silent)?;
             Ok(!found.is_empty())
         }
     }

@@ -10,14 +10,9 @@ mod serve;
 use crate::error::TortureError;
 use clap::{Args, value_parser};
 use jobs::{JOBS, Job};
-use phase_cli::{
-    console::print_result,
-    context::Context,
-    error::CliError,
-    interrupt,
-    parallel::{Jobs, make_all},
-};
+use phase_cli::{console::print_result, context::Context, interrupt, parallel::Jobs};
 use phase_model::random::{Pcg64Mcg, Purpose, stream};
+use phase_runs::{error::RunError, interrupt::requested, parallel::make_all};
 use rand::RngExt;
 use run::{End, Ground};
 use std::{
@@ -107,11 +102,11 @@ pub fn run(arguments: &Torture, context: &Context) -> Result<(), TortureError> {
     let progress = context.progress_over(&format!("{} disturbances", all.len()), all.len());
     let done: Vec<AtomicBool> = all.iter().map(|_| AtomicBool::new(false)).collect();
     // What a disturbance is does not depend on which others there were.
-    let results = make_all(&arguments.jobs, all.len(), |index| {
+    let results = make_all(arguments.jobs.threads(), all.len(), |index| {
         let disturbance = &all[index];
         let subject = &subjects[disturbance.subject];
         let result = subject.suffer(&program, disturbance, arguments.seed);
-        if interrupt::requested() {
+        if requested() {
             // An interruption reaches the command as well.
             return Ok(None);
         }
@@ -186,10 +181,10 @@ fn subjects<'a>(
     let wanted = |name: &str| arguments.only.as_ref().is_none_or(|text| name.contains(text.as_str()));
     let jobs: Vec<(u64, &Job)> = (0..).zip(&JOBS).filter(|(_, job)| wanted(job.name)).collect();
     if jobs.is_empty() && !wanted(serve::NAME) {
-        return Err(CliError::Usage("--only: no command has such a name".into()).into());
+        return Err(RunError::Usage("--only: no command has such a name".into()).into());
     }
     let without = |name: &str| context.note(format!("{name}: the program was built without it"));
-    let prepared = make_all(&arguments.jobs, jobs.len(), |index| {
+    let prepared = make_all(arguments.jobs.threads(), jobs.len(), |index| {
         let (number, job) = jobs[index];
         let prepare = || -> Result<Option<Subject<'a>>, TortureError> {
             let Some(ground) = Ground::new(program, job)? else {

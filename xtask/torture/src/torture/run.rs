@@ -6,8 +6,8 @@ use super::{
 };
 use crate::error::TortureError;
 use core::fmt;
-use phase_cli::error::CliError;
 use phase_files::{WriteError, atomic, fault};
+use phase_runs::error::RunError;
 use serde_json::Value;
 use std::{
     collections::BTreeMap,
@@ -73,7 +73,7 @@ impl<'a> Ground<'a> {
     pub(super) fn new(program: &'a Path, job: &'static Job) -> Result<Option<Self>, TortureError> {
         let input = folder()?;
         let preset = input.path().join(PRESET.0);
-        atomic::write(&preset, PRESET.1.as_bytes()).map_err(CliError::Output)?;
+        atomic::write(&preset, PRESET.1.as_bytes()).map_err(RunError::Output)?;
         let mut ground = Self { program, job, input, whole: BTreeMap::new(), seconds: 0.0 };
         for words in job.prepare {
             let output = ground.program().current_dir(ground.input.path()).args(*words).output();
@@ -280,5 +280,5 @@ fn tree(root: &Path) -> Result<BTreeMap<String, Vec<u8>>, TortureError> {
 }
 
 pub(super) fn failed(path: &Path, action: &'static str, source: io::Error) -> TortureError {
-    CliError::Output(WriteError { path: path.to_owned(), action, source }).into()
+    RunError::Output(WriteError { path: path.to_owned(), action, source }).into()
 }

@@ -8,8 +8,8 @@ use super::{Torment, permissions};
 use crate::error::TortureError;
 use client::{Player, Rater};
 use core::fmt;
-use phase_cli::error::CliError;
 use phase_model::random::Pcg64Mcg;
+use phase_runs::error::RunError;
 use rand::RngExt;
 use serde_json::json;
 use server::{Server, Start};
@@ -158,7 +158,7 @@ fn place(is_plain: bool) -> Result<TempDir, TortureError> {
         .map_err(|source| super::run::failed(&std::env::temp_dir(), "create a folder", source))?;
     let write = |name: &str, bytes: &[u8]| {
         phase_files::atomic::write(&place.path().join(name), bytes)
-            .map_err(|error| TortureError::from(CliError::Output(error)))
+            .map_err(|error| TortureError::from(RunError::Output(error)))
     };
     let mut stimuli = Vec::with_capacity(VIDEOS);
     for k in 0..VIDEOS {

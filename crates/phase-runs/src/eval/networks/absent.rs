@@ -1,23 +1,15 @@
 //! Behaviour of a program that was built without networks.
 
-use crate::{context::Context, error::CliError};
+use crate::error::RunError;
 use phase_eval::benchmark::Training;
 use phase_event::{Forecaster, Recogniser};
 use std::path::Path;
-
-/// Checks that this program has networks.
-///
-/// # Errors
-/// [`CliError::NoNetworks`], always.
-pub const fn require(context: &Context) -> Result<(), CliError> {
-    Err(CliError::NoNetworks { hint: context.program.networks_hint })
-}
 
 /// Nothing: this program has no networks.
 ///
 /// # Errors
 /// None.
-pub const fn recogniser(_: &str, _: Option<&Path>) -> Result<Option<Box<dyn Recogniser>>, CliError> {
+pub const fn recogniser(_: &str, _: Option<&Path>) -> Result<Option<Box<dyn Recogniser>>, RunError> {
     Ok(None)
 }
 
@@ -25,7 +17,7 @@ pub const fn recogniser(_: &str, _: Option<&Path>) -> Result<Option<Box<dyn Reco
 ///
 /// # Errors
 /// None.
-pub const fn forecaster(_: &str, _: Option<&Path>) -> Result<Option<Box<dyn Forecaster>>, CliError> {
+pub const fn forecaster(_: &str, _: Option<&Path>) -> Result<Option<Box<dyn Forecaster>>, RunError> {
     Ok(None)
 }
 
@@ -33,7 +25,7 @@ pub const fn forecaster(_: &str, _: Option<&Path>) -> Result<Option<Box<dyn Fore
 ///
 /// # Errors
 /// None.
-pub const fn training(_: &str) -> Result<Option<Training>, CliError> {
+pub const fn training(_: &str) -> Result<Option<Training>, RunError> {
     Ok(None)
 }
 
@@ -41,6 +33,6 @@ pub const fn training(_: &str) -> Result<Option<Training>, CliError> {
 ///
 /// # Errors
 /// Always.
-pub fn training_of(file: &Path) -> Result<Training, CliError> {
-    Err(CliError::Usage(format!("{}: is for a neural network, which this program has not", file.display())))
+pub fn training_of(file: &Path) -> Result<Training, RunError> {
+    Err(RunError::Usage(format!("{}: is for a neural network, which this program has not", file.display())))
 }

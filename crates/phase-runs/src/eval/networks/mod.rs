@@ -3,6 +3,9 @@
 //! Their library takes minutes to build, so they are only available in a build with the feature `networks`;
 //! every other build knows their names and reports what to use instead.
 
+/// Whether this build has networks.
+pub const INCLUDED: bool = cfg!(feature = "networks");
+
 /// The networks for goals and relations.
 pub const RECOGNISING: [&str; 3] = ["two-level-lstm", "arg", "socialgnn"];
 /// Those for trajectories.
@@ -20,6 +23,6 @@ mod absent;
 mod trained;
 
 #[cfg(not(feature = "networks"))]
-pub use absent::{forecaster, recogniser, require, training, training_of};
+pub use absent::{forecaster, recogniser, training, training_of};
 #[cfg(feature = "networks")]
-pub use trained::{forecaster, recogniser, require, training, training_of};
+pub use trained::{forecaster, recogniser, training, training_of};

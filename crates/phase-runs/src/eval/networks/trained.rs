@@ -1,6 +1,6 @@
 //! The networks themselves.
 
-use crate::{context::Context, error::CliError};
+use crate::error::RunError;
 use phase_baselines::{
     TrainedNetwork,
     arg::Arg,
@@ -32,7 +32,7 @@ use std::{
 ///
 /// # Errors
 /// If the file cannot be used.
-pub fn recogniser(name: &str, weights: Option<&Path>) -> Result<Option<Box<dyn Recogniser>>, CliError> {
+pub fn recogniser(name: &str, weights: Option<&Path>) -> Result<Option<Box<dyn Recogniser>>, RunError> {
     Ok(match name {
         "two-level-lstm" => Some(Box::new(open::<TwoLevelLstm>(weights)?)),
         "arg" => Some(Box::new(open::<Arg>(weights)?)),
@@ -45,7 +45,7 @@ pub fn recogniser(name: &str, weights: Option<&Path>) -> Result<Option<Box<dyn R
 ///
 /// # Errors
 /// If the file cannot be used.
-pub fn forecaster(name: &str, weights: Option<&Path>) -> Result<Option<Box<dyn Forecaster>>, CliError> {
+pub fn forecaster(name: &str, weights: Option<&Path>) -> Result<Option<Box<dyn Forecaster>>, RunError> {
     Ok(match name {
         "social-lstm" => Some(Box::new(open::<SocialLstm>(weights)?)),
         "stgat" => Some(Box::new(open::<Stgat>(weights)?)),
@@ -57,7 +57,7 @@ pub fn forecaster(name: &str, weights: Option<&Path>) -> Result<Option<Box<dyn F
 ///
 /// # Errors
 /// If its record is damaged.
-pub fn training(name: &str) -> Result<Option<Training>, CliError> {
+pub fn training(name: &str) -> Result<Option<Training>, RunError> {
     let record = match name {
         "intent-network" => IntentNetwork::BUNDLED_RECORD,
         "two-level-lstm" => TwoLevelLstm::BUNDLED_RECORD,
@@ -74,24 +74,16 @@ pub fn training(name: &str) -> Result<Option<Training>, CliError> {
 ///
 /// # Errors
 /// If there is none or it cannot be used.
-pub fn training_of(file: &Path) -> Result<Training, CliError> {
+pub fn training_of(file: &Path) -> Result<Training, RunError> {
     let mut beside = OsString::from(file);
     beside.push(".training.json");
     let beside = PathBuf::from(beside);
     record_of(&beside, &json::bytes(&beside)?)
 }
 
-/// Checks that this program has networks, which it does.
-///
-/// # Errors
-/// None.
-pub const fn require(_: &Context) -> Result<(), CliError> {
-    Ok(())
-}
-
-fn record_of(file: &Path, bytes: &[u8]) -> Result<Training, CliError> {
+fn record_of(file: &Path, bytes: &[u8]) -> Result<Training, RunError> {
     let record = TrainingRecord::parse(bytes)
-        .map_err(|source| CliError::TrainingRecord { file: file.to_owned(), source })?;
+        .map_err(|source| RunError::TrainingRecord { file: file.to_owned(), source })?;
     let measures = record.rounds.first().map(|round| round.validation.scores.keys().cloned().collect());
     let curve = |measure: String| Curve {
         training: values(&record, &measure, |round| &round.training),
@@ -123,10 +115,10 @@ fn values(record: &TrainingRecord, measure: &str, part: fn(&RecordedRound) -> &N
 }
 
 /// A network with the weights of a file or the bundled ones.
-fn open<N: PublishedNetwork>(weights: Option<&Path>) -> Result<TrainedNetwork<N>, CliError> {
+fn open<N: PublishedNetwork>(weights: Option<&Path>) -> Result<TrainedNetwork<N>, RunError> {
     let given = weights.map(json::bytes).transpose()?;
     let bytes = given.as_deref().unwrap_or(N::BUNDLED_WEIGHTS);
-    let wrong = |source: NetworkError| CliError::Weights {
+    let wrong = |source: NetworkError| RunError::Weights {
         file: weights.map_or_else(|| format!("data/{}.safetensors", N::NAME).into(), Path::to_owned),
         source,
     };

@@ -1,9 +1,9 @@
 //! The text below the picture of an agent's decision.
 
-use phase_cli::captions::{COUNT, lines};
 use phase_event::{ActionEvaluation, SubgoalValue, Thought};
 use phase_model::{Action, AgentId, Entity, LandmarkId, Literal, ObjectId, Predicate, Subgoal};
 use phase_render::{Caption, SizedFont, Style};
+use phase_runs::captions::{COUNT, lines};
 
 fn on(object: u8, landmark: u8, holds: bool) -> Subgoal {
     Subgoal::Achieve(Literal {

@@ -1,11 +1,11 @@
 //! What is done next when a dataset is made, with simulations of which only the result is known.
 
-use phase_cli::gen_dataset::schedule::{
-    AttemptId, Consequences, Job, Need, Part, Progress, Schedule, Standing,
-};
 use phase_model::{
     AgentId,
     random::{Purpose, derive_seed},
+};
+use phase_runs::gen_dataset::schedule::{
+    AttemptId, Consequences, Job, Need, Part, Progress, Schedule, Standing,
 };
 use std::collections::{BTreeMap, BTreeSet};
 

@@ -1,15 +1,13 @@
-//! Every way in which a command can fail, and its exit code.
+//! Every way in which a run can fail.
 
 #[cfg(feature = "networks")]
 pub mod train;
 
-use crate::program::Failure;
 #[cfg(feature = "networks")]
 use phase_baselines::training::{NetworkError, TrainingRecordError};
 use phase_dataset::ExportError;
 use phase_event::{EventWriteError, MethodError};
 use phase_files::{FileError, WriteError, folder::FolderError};
-use phase_model::EventKind;
 use phase_render::RenderError;
 use phase_sampler::SampleError;
 use phase_sim::SimulationError;
@@ -20,9 +18,9 @@ use thiserror::Error;
 #[cfg(feature = "networks")]
 use train::TrainError;
 
-/// Why a command failed. The text is one plain sentence.
+/// Why a run failed. The text is one plain sentence that names the file or the event.
 #[derive(Debug, Error)]
-pub enum CliError {
+pub enum RunError {
     /// An input file cannot be used.
     #[error(transparent)]
     File(#[from] FileError),
@@ -53,10 +51,10 @@ pub enum CliError {
         /// Similar ids, in words.
         near: String,
     },
-    /// A folder holds nothing to render.
+    /// A folder holds no events.
     #[error("{}: is a folder without manifest.json or summary.json, and without event files; give one of them", .0.display())]
     NotADataset(PathBuf),
-    /// An option is not compatible with the input.
+    /// A field of the run is not compatible with the input.
     #[error("{0}")]
     Usage(String),
     /// A scene cannot be simulated.
@@ -139,35 +137,9 @@ pub enum CliError {
         /// The operation that requires more rows.
         needed: &'static str,
     },
-    /// No initial scene could be drawn.
-    #[error("--layout {layout}: no {} scene fits this layout; choose another", kind.name())]
-    NoScene {
-        /// The layout's number.
-        layout: u8,
-        /// The kind of event.
-        kind: EventKind,
-        /// Why all of its variants failed.
-        source: SampleError,
-    },
-    /// A dataset disagrees with its manifest; the problems have been reported.
-    #[error("{}: {problems} problem(s)", folder.display())]
-    NotWhole {
-        /// The dataset.
-        folder: PathBuf,
-        /// How many.
-        problems: usize,
-    },
     /// A dataset has no manifest because its run was interrupted.
     #[error("{}: is unfinished; the command that began it goes on from there", .0.display())]
     Unfinished(PathBuf),
-    /// A split breaks rules.
-    #[error("{}: its split breaks {broken} rule(s)", events.display())]
-    RulesBroken {
-        /// The dataset.
-        events: PathBuf,
-        /// How many.
-        broken: usize,
-    },
     /// A training failed.
     #[cfg(feature = "networks")]
     #[error(transparent)]
@@ -201,71 +173,26 @@ pub enum CliError {
         /// Why.
         source: TrainingRecordError,
     },
-    /// A neural network was requested from a program built without them.
-    #[error("neural networks are needed, which this program was built without; {hint}")]
-    NoNetworks {
-        /// What to do instead.
-        hint: &'static str,
-    },
-    /// Rating studies were requested from a program built without them.
-    #[error("rating studies are needed, which this program was built without; {hint}")]
-    NoStudies {
-        /// What to do instead.
-        hint: &'static str,
-    },
-    /// The configuration of a study cannot be used.
-    #[cfg(feature = "studies")]
-    #[error("{}: {source}", file.display())]
-    Study {
-        /// The file.
-        file: PathBuf,
-        /// Why.
-        source: Box<phase_study::config::ConfigError>,
-    },
-    /// The answers of a study cannot be read.
-    #[cfg(feature = "studies")]
-    #[error(transparent)]
-    Answers(phase_study::store::StoreError),
-    /// The forms that come with the program cannot be used.
-    #[cfg(feature = "studies")]
-    #[error(transparent)]
-    Forms(phase_study::forms::FormsError),
-    /// The server was requested from a program built without it.
-    #[error("the server is needed, which this program was built without; {hint}")]
-    NoServer {
-        /// What to do instead.
-        hint: &'static str,
-    },
-    /// The server cannot start or had to stop.
-    #[cfg(feature = "serve")]
-    #[error(transparent)]
-    Serve(#[from] phase_serve::ServeError),
-    /// The user interrupted the run.
+    /// A stop was requested, see [`crate::interrupt`].
     #[error("interrupted; what is finished is kept in {}, and the same command goes on from there", .0.display())]
     Interrupted(PathBuf),
 }
 
-/// What has become of a run that could not write or read one of its files.
-fn kept(path: &Path) -> &'static str {
-    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
-    if folder.is_none_or(Path::exists) {
-        "the same command goes on from what is finished there"
-    } else {
-        "its folder is no longer there, nor is what was finished in it; the same command makes it again"
-    }
+/// What has to change for a run to succeed.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Fault {
+    /// The input, the options or the output folder.
+    Input,
+    /// The machine or this program, such as a full disk or a scene that cannot be simulated.
+    Run,
+    /// Nothing: somebody stopped it.
+    Interruption,
 }
 
-impl From<ExportError> for CliError {
-    fn from(error: ExportError) -> Self {
-        match error {
-            ExportError::Read(error) => Self::ReadBack(error),
-            ExportError::Write(error) => Self::Write(error),
-        }
-    }
-}
-
-impl Failure for CliError {
-    fn exit_code(&self) -> u8 {
+impl RunError {
+    /// What has to change for the run to succeed.
+    #[must_use]
+    pub const fn fault(&self) -> Fault {
         match self {
             Self::File(_)
             | Self::Folder(_)
@@ -275,17 +202,11 @@ impl Failure for CliError {
             | Self::UnknownId { .. }
             | Self::NotADataset(_)
             | Self::IntentNetwork { .. }
-            | Self::NotWhole { .. }
             | Self::Unfinished(_)
-            | Self::RulesBroken { .. }
-            | Self::NoNetworks { .. }
-            | Self::NoStudies { .. }
-            | Self::NoServer { .. }
             | Self::SimulationSettings { .. }
             | Self::StartAlone { .. }
-            | Self::NoScene { .. }
-            | Self::Usage(_) => 2,
-            Self::Interrupted(_) => 130,
+            | Self::Usage(_) => Fault::Input,
+            Self::Interrupted(_) => Fault::Interruption,
             Self::Simulation { .. }
             | Self::Method { .. }
             | Self::Models(_)
@@ -296,25 +217,14 @@ impl Failure for CliError {
             | Self::EventWrite(_)
             | Self::Render { .. }
             | Self::Serialise { .. }
-            | Self::Threads { .. } => 1,
-            #[cfg(feature = "serve")]
-            Self::Serve(error) => match error {
-                phase_serve::ServeError::Random(_) | phase_serve::ServeError::Runtime(_) => 1,
-                _ => 2,
-            },
+            | Self::Threads { .. } => Fault::Run,
             #[cfg(feature = "networks")]
-            Self::Weights { .. } | Self::TrainingRecord { .. } => 2,
-            #[cfg(feature = "studies")]
-            Self::Study { .. } | Self::Answers(_) => 2,
-            #[cfg(feature = "studies")]
-            Self::Forms(_) => 1,
+            Self::Weights { .. } | Self::TrainingRecord { .. } => Fault::Input,
             #[cfg(feature = "networks")]
-            Self::Train(error) => error.exit_code(),
+            Self::Train(error) => error.fault(),
         }
     }
-}
 
-impl CliError {
     /// An id that a file does not contain, with the most similar ones.
     #[must_use]
     pub fn unknown_id<'a>(file: &Path, id: &str, ids: impl Iterator<Item = &'a str>) -> Self {
@@ -329,6 +239,25 @@ impl CliError {
             _ => format!("; nearest of its {count} are {}", ids.join(", ")),
         };
         Self::UnknownId { file: file.to_owned(), id: id.into(), near }
+    }
+}
+
+/// What has become of a run that could not write or read one of its files.
+fn kept(path: &Path) -> &'static str {
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
+    if folder.is_none_or(Path::exists) {
+        "the same command goes on from what is finished there"
+    } else {
+        "its folder is no longer there, nor is what was finished in it; the same command makes it again"
+    }
+}
+
+impl From<ExportError> for RunError {
+    fn from(error: ExportError) -> Self {
+        match error {
+            ExportError::Read(error) => Self::ReadBack(error),
+            ExportError::Write(error) => Self::Write(error),
+        }
     }
 }
 

@@ -1,6 +1,6 @@
 //! The page on which simulated events can be watched, as those of a dataset can.
 
-use crate::{engine::GENERATOR, error::CliError, gallery_writer::GalleryWriter};
+use crate::{engine::GENERATOR, error::RunError, gallery_writer::GalleryWriter};
 use phase_dataset::{manifest::EventEntry, summary::EventComparison};
 use phase_event::Event;
 use phase_report::gallery::{Gallery, Timeline};
@@ -25,8 +25,8 @@ impl Shown {
 /// Writes the page into the folder of the events.
 ///
 /// # Errors
-/// [`CliError::Write`].
-pub(super) fn write(out: &Path, seed: u64, shown: Vec<Shown>) -> Result<(), CliError> {
+/// [`RunError::Write`].
+pub(super) fn write(out: &Path, seed: u64, shown: Vec<Shown>) -> Result<(), RunError> {
     let gallery = Gallery { preset: "simulated scenes", generator: GENERATOR, seed, events: shown.len() };
     let mut writer = GalleryWriter::new(out, gallery);
     for Shown { entry, timeline } in shown {

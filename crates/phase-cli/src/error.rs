@@ -1,0 +1,139 @@
+//! Every way in which a command can fail, and its exit code.
+
+use crate::program::Failure;
+use phase_files::{FileError, WriteError};
+use phase_model::EventKind;
+use phase_runs::error::{Fault, RunError};
+use phase_sampler::SampleError;
+use std::path::PathBuf;
+use thiserror::Error;
+
+/// Why a command failed. The text is one plain sentence.
+#[derive(Debug, Error)]
+pub enum CliError {
+    /// A run on many events failed.
+    #[error(transparent)]
+    Run(#[from] RunError),
+    /// An input file cannot be used.
+    #[error(transparent)]
+    File(#[from] FileError),
+    /// The output cannot be written to the given path.
+    #[error(transparent)]
+    Output(WriteError),
+    /// An option is not compatible with the input.
+    #[error("{0}")]
+    Usage(String),
+    /// No scene could be drawn.
+    #[error(transparent)]
+    Sample(#[from] SampleError),
+    /// A value cannot be converted to JSON.
+    #[error("{what} cannot be written as JSON: {source}")]
+    Serialise {
+        /// What.
+        what: &'static str,
+        /// Why.
+        source: serde_json::Error,
+    },
+    /// No initial scene could be drawn.
+    #[error("--layout {layout}: no {} scene fits this layout; choose another", kind.name())]
+    NoScene {
+        /// The layout's number.
+        layout: u8,
+        /// The kind of event.
+        kind: EventKind,
+        /// Why all of its variants failed.
+        source: SampleError,
+    },
+    /// A dataset disagrees with its manifest; the problems have been reported.
+    #[error("{}: {problems} problem(s)", folder.display())]
+    NotWhole {
+        /// The dataset.
+        folder: PathBuf,
+        /// How many.
+        problems: usize,
+    },
+    /// A split breaks rules.
+    #[error("{}: its split breaks {broken} rule(s)", events.display())]
+    RulesBroken {
+        /// The dataset.
+        events: PathBuf,
+        /// How many.
+        broken: usize,
+    },
+    /// A neural network was requested from a program built without them.
+    #[error("neural networks are needed, which this program was built without; {hint}")]
+    NoNetworks {
+        /// What to do instead.
+        hint: &'static str,
+    },
+    /// Rating studies were requested from a program built without them.
+    #[error("rating studies are needed, which this program was built without; {hint}")]
+    NoStudies {
+        /// What to do instead.
+        hint: &'static str,
+    },
+    /// The configuration of a study cannot be used.
+    #[cfg(feature = "studies")]
+    #[error("{}: {source}", file.display())]
+    Study {
+        /// The file.
+        file: PathBuf,
+        /// Why.
+        source: Box<phase_study::config::ConfigError>,
+    },
+    /// The answers of a study cannot be read.
+    #[cfg(feature = "studies")]
+    #[error(transparent)]
+    Answers(phase_study::store::StoreError),
+    /// The forms that come with the program cannot be used.
+    #[cfg(feature = "studies")]
+    #[error(transparent)]
+    Forms(phase_study::forms::FormsError),
+    /// The server was requested from a program built without it.
+    #[error("the server is needed, which this program was built without; {hint}")]
+    NoServer {
+        /// What to do instead.
+        hint: &'static str,
+    },
+    /// The server cannot start or had to stop.
+    #[cfg(feature = "serve")]
+    #[error(transparent)]
+    Serve(#[from] phase_serve::ServeError),
+}
+
+impl Failure for CliError {
+    fn exit_code(&self) -> u8 {
+        match self {
+            Self::Run(error) => error.exit_code(),
+            Self::File(_)
+            | Self::Output(_)
+            | Self::NotWhole { .. }
+            | Self::RulesBroken { .. }
+            | Self::NoNetworks { .. }
+            | Self::NoStudies { .. }
+            | Self::NoServer { .. }
+            | Self::NoScene { .. }
+            | Self::Usage(_) => 2,
+            Self::Sample(_) | Self::Serialise { .. } => 1,
+            #[cfg(feature = "serve")]
+            Self::Serve(error) => match error {
+                phase_serve::ServeError::Random(_) | phase_serve::ServeError::Runtime(_) => 1,
+                _ => 2,
+            },
+            #[cfg(feature = "studies")]
+            Self::Study { .. } | Self::Answers(_) => 2,
+            #[cfg(feature = "studies")]
+            Self::Forms(_) => 1,
+        }
+    }
+}
+
+impl Failure for RunError {
+    fn exit_code(&self) -> u8 {
+        match self.fault() {
+            Fault::Input => 2,
+            Fault::Run => 1,
+            Fault::Interruption => 130,
+        }
+    }
+}

@@ -1,0 +1,25 @@
+//! The option `--jobs`: how many events at once.
+
+use clap::{Args, value_parser};
+
+/// Number of events at once.
+#[derive(Args, Clone, Debug)]
+pub struct Jobs {
+    /// Events to work on at once; results do not depend on it [default: all cores]
+    #[arg(long, value_name = "J", value_parser = value_parser!(u16).range(1..=1024))]
+    pub jobs: Option<u16>,
+}
+
+impl Jobs {
+    /// The number that was given.
+    #[must_use]
+    pub fn given(&self) -> Option<usize> {
+        self.jobs.map(usize::from)
+    }
+
+    /// The number of threads: that of this machine's cores, if none was given.
+    #[must_use]
+    pub fn threads(&self) -> usize {
+        phase_runs::parallel::threads(self.given())
+    }
+}

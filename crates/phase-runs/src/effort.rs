@@ -1,0 +1,131 @@
+//! Physics engine, length of events and search effort of agents, as somebody asked for them.
+
+use crate::error::RunError;
+use phase_minds::{Foresight, MindKind, MindParameters, PhaseParameters};
+use phase_sim::{Engine, SimulationSettings};
+
+/// Which minds agents have.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+pub struct MindChoice {
+    /// The kind of minds; without one that of the method, or our own in simulations.
+    pub kind: Option<MindKind>,
+    /// Whether all turns go one way, as in the published recordings: left, and right in a reflected layout.
+    pub one_way_turns: bool,
+}
+
+impl MindChoice {
+    /// Whether nothing was chosen that differs from the default.
+    #[must_use]
+    pub fn is_default(&self) -> bool {
+        self.kind.unwrap_or_default() == MindKind::default() && !self.one_way_turns
+    }
+
+    /// The name of a method that imagines such minds.
+    #[must_use]
+    pub fn name(&self, method: &str) -> String {
+        self.kind.map_or_else(|| method.into(), |kind| format!("{method}-{}-minds", kind.name()))
+    }
+}
+
+/// Physics engine, length of events and search effort of agents. What is `None` is as in the paper.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+pub struct Effort {
+    /// Physics engine of the events.
+    pub engine: Option<Engine>,
+    /// Which minds the agents have.
+    pub minds: MindChoice,
+    /// Dynamics in the agents' search.
+    pub foresight: Option<Foresight>,
+    /// Belief particles of each agent, at least 1.
+    pub particles: Option<u32>,
+    /// POMCP simulations a decision, at least 1.
+    pub simulations: Option<u32>,
+    /// Maximum length of an event (steps of 0.25 s), at least 1.
+    pub max_steps: Option<u32>,
+}
+
+impl Effort {
+    /// The settings of the simulation.
+    ///
+    /// # Errors
+    /// [`RunError::Usage`], if minds of this kind do not have a parameter that was given.
+    pub fn settings(&self) -> Result<SimulationSettings, RunError> {
+        self.settings_with(MindParameters::of(self.minds.kind.unwrap_or_default()))
+    }
+
+    /// The settings of the simulation, where minds have these parameters in place of the defaults.
+    ///
+    /// # Errors
+    /// [`RunError::Usage`], if other minds were requested, or minds of this kind do not have a parameter that was given.
+    pub fn settings_with(&self, mut minds: MindParameters) -> Result<SimulationSettings, RunError> {
+        if let Some(kind) = self.minds.kind.filter(|kind| *kind != minds.kind()) {
+            let asked = kind.name();
+            let given = minds.kind().name();
+            return Err(RunError::Usage(format!(
+                "--minds {asked}: the parameters are those of {given} minds"
+            )));
+        }
+        if let Some(foresight) = self.foresight {
+            minds = with_foresight(minds, foresight)?;
+        }
+        if let Some(particles) = self.particles {
+            minds = minds.with_particles(particles as usize);
+        }
+        if let Some(simulations) = self.simulations {
+            minds = minds.with_simulations(simulations as usize);
+        }
+        let defaults = SimulationSettings::default();
+        Ok(SimulationSettings {
+            engine: self.engine.unwrap_or_default(),
+            max_steps: self.max_steps.map_or(defaults.max_steps, |steps| steps as usize),
+            one_way_turns: self.minds.one_way_turns,
+            minds,
+            ..defaults
+        })
+    }
+
+    /// The options of the command line that ask for it, each with a space before it.
+    #[must_use]
+    pub(crate) fn options(&self) -> String {
+        let numbers =
+            [("particles", self.particles), ("simulations", self.simulations), ("max-steps", self.max_steps)];
+        let engine = self.engine.map(|engine| format!(" --engine {}", engine.name()));
+        let minds = self.minds.kind.map(|minds| format!(" --minds {}", minds.name()));
+        let turns = self.minds.one_way_turns.then(|| " --one-way-turns".to_owned());
+        let foresight = self.foresight.map(|foresight| format!(" --foresight {}", foresight.name()));
+        let given = numbers.into_iter().filter_map(|(name, value)| Some(format!(" --{name} {}", value?)));
+        engine.into_iter().chain(minds).chain(turns).chain(foresight).chain(given).collect()
+    }
+}
+
+/// Settings in words.
+#[must_use]
+pub fn description(settings: &SimulationSettings) -> String {
+    let SimulationSettings { engine, max_steps, minds, one_way_turns, .. } = settings;
+    let engine = engine.name();
+    let kind = minds.kind().name();
+    let search = match minds {
+        MindParameters::Phase(phase) => format!(", foresight {}", phase.foresight.name()),
+        MindParameters::Published(_) if minds.foresees_collisions() => String::new(),
+        MindParameters::Published(_) => ", without collisions".to_owned(),
+    };
+    let turns = if *one_way_turns { ", one-way turns" } else { "" };
+    let particles = minds.particles();
+    let simulations = minds.simulations();
+    format!(
+        "engine {engine}, {kind} minds{turns}{search}, {particles} particles, {simulations} simulations, at most \
+         {max_steps} steps"
+    )
+}
+
+/// Minds that search in these dynamics, if minds of their kind can.
+fn with_foresight(minds: MindParameters, foresight: Foresight) -> Result<MindParameters, RunError> {
+    match (minds, foresight) {
+        (MindParameters::Phase(phase), _) => Ok(PhaseParameters { foresight, ..phase }.into()),
+        (MindParameters::Published(_), Foresight::Points) => Ok(minds.without_collisions()),
+        (MindParameters::Published(_), Foresight::Coarse | Foresight::Exact) => {
+            let rule = "published minds search in dynamics of their own, which can only be `points` instead";
+            Err(RunError::Usage(format!("--foresight {}: {rule}", foresight.name())))
+        }
+    }
+}

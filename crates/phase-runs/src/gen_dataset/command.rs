@@ -1,0 +1,88 @@
+//! The command line that makes a dataset: its card has it, and `verify --replay` follows it.
+
+use super::Generation;
+use crate::effort::{Effort, MindChoice};
+use phase_minds::{Foresight, MindKind};
+use phase_sim::Engine;
+
+/// How the command begins.
+const PROGRAM: &str = "phase gen-dataset ";
+
+impl Generation {
+    /// The command line that makes this dataset anywhere, with its number of events and its seed.
+    pub(super) fn command(&self, events: usize, seed: u64) -> String {
+        let (name, effort) = (&self.preset, self.effort.options());
+        let no_video = if self.videos { "" } else { " --no-video" };
+        let date = self.date_published.as_ref();
+        let date = date.map_or_else(String::new, |date| format!(" --date-published {date}"));
+        format!("{PROGRAM}--preset {name} --events {events} --seed {seed}{effort}{no_video}{date}")
+    }
+
+    /// The dataset that a command line makes; `None` if [`Generation::command`] never says it that way.
+    pub(crate) fn of_command(command: &str) -> Option<Self> {
+        let mut generation = Self::new("");
+        let mut words = command.strip_prefix(PROGRAM)?.split(' ');
+        while let Some(word) = words.next() {
+            match word {
+                "--one-way-turns" => generation.effort.minds.one_way_turns = true,
+                "--no-video" => generation.videos = false,
+                _ => generation.set(word, words.next()?)?,
+            }
+        }
+        let again = generation.command(generation.events?, generation.seed?);
+        (again == command).then_some(generation)
+    }
+
+    /// Sets the value of an option; `None` if there is no such option or value.
+    fn set(&mut self, option: &str, value: &str) -> Option<()> {
+        let Effort { engine, minds: MindChoice { kind, .. }, foresight, particles, simulations, max_steps } =
+            &mut self.effort;
+        match option {
+            "--preset" => self.preset = value.into(),
+            "--events" => self.events = Some(value.parse().ok().filter(|events| *events > 0)?),
+            "--seed" => self.seed = Some(value.parse().ok()?),
+            "--date-published" => self.date_published = Some(value.into()),
+            "--engine" => *engine = Some(Engine::named(value)?),
+            "--minds" => *kind = Some(MindKind::ALL.into_iter().find(|kind| kind.name() == value)?),
+            "--foresight" => *foresight = Some(Foresight::ALL.into_iter().find(|it| it.name() == value)?),
+            "--particles" => *particles = Some(number(value)?),
+            "--simulations" => *simulations = Some(number(value)?),
+            "--max-steps" => *max_steps = Some(number(value)?),
+            _ => return None,
+        }
+        Some(())
+    }
+}
+
+/// A number above 0.
+fn number(text: &str) -> Option<u32> {
+    text.parse().ok().filter(|number| *number > 0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Generation;
+
+    #[test]
+    fn a_command_is_followed_exactly_as_it_was_written() {
+        let plain = "phase gen-dataset --preset demo --events 12 --seed 7";
+        let every = "phase gen-dataset --preset demo --events 2 --seed 1 --engine forward --minds published --one-way-turns \
+                     --foresight exact --particles 4 --simulations 20 --max-steps 6 --no-video --date-published 2026-11-23";
+        for command in [plain, every] {
+            let generation = Generation::of_command(command).expect(command);
+            let (events, seed) = (generation.events.expect("events"), generation.seed.expect("a seed"));
+            assert_eq!(generation.command(events, seed), command);
+        }
+        for command in [
+            "phase gen-dataset --preset demo --events 12",
+            "phase gen-dataset --seed 7 --preset demo --events 12",
+            "phase gen-dataset --preset demo --events 12 --seed 7 --seed 7",
+            "phase gen-dataset --preset demo --events 12 --seed 7 --particles 0",
+            "phase gen-dataset --preset demo --events 12 --seed 7 --jobs 2",
+            "phase gen-dataset --preset demo --events 12 --seed",
+            "rm --preset demo --events 12 --seed 7",
+        ] {
+            assert_eq!(Generation::of_command(command), None, "{command}");
+        }
+    }
+}

@@ -1,0 +1,78 @@
+//! Runs of PHASE on many events: datasets are generated and verified, methods evaluated, networks trained.
+//!
+//! - [`gen_dataset::Generation`] generates a dataset, or one shard of it, [`gen_dataset::merge`] combines shards.
+//! - [`simulate::Simulations`] simulates the scenes of a file.
+//! - [`verify`] checks that a dataset is whole and that its files are what follows from its preset and seed; [`export`] packs it for
+//!   training programs.
+//! - [`eval::Evaluation`] evaluates a method, by its name or one of your own; [`benchmark::BenchmarkRun`] evaluates all of them.
+//! - `train::Training` trains a network (feature `networks`).
+//! - [`source::EventInput`] opens files and folders with events, [`event_writer`] and [`picture`] make the files of one event.
+//!
+//! Key design decision: a run belongs to a folder that knows which run it is. Everything finished is a file there, written whole or
+//! not at all, so that the same run goes on after any interruption and gives the same bytes, for any number of threads and shards.
+//! Nothing is printed: a [`listener::Listener`] hears notes and progress, and an [`error::RunError`] is one plain sentence. The
+//! trade-off is that every run needs a folder, and that a result of another version of the program is refused, not converted.
+//!
+//! A dataset of one short event is generated and verified, and a method evaluated on it:
+//!
+//! ```
+//! use phase_runs::{
+//!     effort::Effort,
+//!     eval::{Answers, Evaluation},
+//!     gen_dataset::Generation,
+//!     listener::Silent,
+//!     verify::{self, Checks},
+//! };
+//!
+//! let scratch = tempfile::tempdir()?;
+//! let folder = scratch.path().join("dataset");
+//! let effort = Effort {
+//!     max_steps: Some(2),
+//!     simulations: Some(10),
+//!     particles: Some(5),
+//!     ..Effort::default()
+//! };
+//! let generation = Generation {
+//!     events: Some(1),
+//!     videos: false,
+//!     out: Some(folder.clone()),
+//!     effort,
+//!     ..Generation::new("demo")
+//! };
+//! assert_eq!(generation.run(&Silent)?.events, 1);
+//!
+//! let manifest = verify::open(&folder)?;
+//! let checks = Checks { replay: true, ..Checks::default() };
+//! assert!(verify::problems(&folder, &manifest, &checks, None, &Silent)?.is_empty());
+//!
+//! let out = Some(scratch.path().join("evaluation"));
+//! let evaluation = Evaluation { out, ..Evaluation::new(&folder) };
+//! let evaluated = evaluation.goals(&Answers::of_method("chance"), &Silent)?.ok_or("only a part")?;
+//! assert_eq!(evaluated.results["method"], "chance");
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+#![forbid(unsafe_code)]
+#![deny(missing_docs)]
+
+pub mod benchmark;
+pub mod captions;
+pub mod effort;
+pub mod engine;
+pub mod error;
+pub mod eval;
+pub mod event_writer;
+pub mod export;
+pub mod gallery_writer;
+pub mod gen_dataset;
+pub mod interrupt;
+pub mod listener;
+pub mod parallel;
+pub mod picture;
+pub mod shortcuts;
+pub mod simulate;
+pub mod source;
+#[cfg(feature = "networks")]
+pub mod train;
+pub mod verify;
+pub mod words;

@@ -1,0 +1,109 @@
+//! Training of neural networks on datasets, round by round, so that the same training goes on after an interruption.
+
+mod events;
+mod network;
+mod strength;
+mod training_files;
+
+use crate::{
+    error::{RunError, train::TrainError},
+    listener::Listener,
+};
+use phase_baselines::{
+    arg::Arg,
+    forecasting,
+    intent_network::{self, IntentNetwork, LabelledIntents},
+    nodes::Nodes,
+    recognition::{self, LabelledEvent},
+    social_gnn::{self, SocialGnn},
+    social_lstm::SocialLstm,
+    stgat::Stgat,
+    two_level_lstm::TwoLevelLstm,
+};
+use phase_event::{ObservedEvent, Recording};
+use serde_json::Value;
+use std::path::PathBuf;
+
+/// A network that can be trained.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Trainee {
+    /// The strength regressor of SIMPLE.
+    Strength,
+    /// The intent network of SIMPLE: a guess at goals and attitudes from motion alone.
+    IntentNetwork,
+    /// 2-Level LSTM, for goals and relations.
+    TwoLevelLstm,
+    /// Actor relation graph, for goals and relations.
+    Arg,
+    /// SocialGNN, for relations.
+    SocialGnn,
+    /// Social-LSTM, for trajectories.
+    SocialLstm,
+    /// Spatial-temporal graph attention, for trajectories.
+    Stgat,
+}
+
+/// A training of a network on the training events of datasets.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Training {
+    /// The network.
+    pub trainee: Trainee,
+    /// Folder of a finished dataset that is divided into train, validation and test.
+    pub data: PathBuf,
+    /// Folders with further training events: other datasets, and simulations, of which all events are taken.
+    pub more: Vec<PathBuf>,
+    /// Only so many of the first training events of `data`, at least 1.
+    pub events: Option<usize>,
+    /// Folder of the dataset for validation and testing; without it `data`.
+    pub validation: Option<PathBuf>,
+    /// File for the weights (safetensors).
+    pub out: PathBuf,
+    /// Random seed of the training.
+    pub seed: u64,
+    /// Whether to evaluate the final weights on the test events, too.
+    pub test: bool,
+    /// Maximum number of rounds, at least 1; the strength regressor has none.
+    pub rounds: Option<usize>,
+}
+
+/// A network that is trained; its weights are in their file.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Trained {
+    /// Its figures as a table in Markdown.
+    pub text: String,
+    /// Its figures for programs.
+    pub figures: Value,
+}
+
+impl Training {
+    /// Trains the network, or goes on with what an interrupted training has left.
+    ///
+    /// # Errors
+    /// If a dataset cannot be used, training fails or a file cannot be written.
+    pub fn run(&self, listener: &dyn Listener) -> Result<Trained, RunError> {
+        let nodes = |_: &Recording, observed: &ObservedEvent| Ok(Nodes::of(observed));
+        match self.trainee {
+            Trainee::Strength => strength::run(self, listener),
+            Trainee::IntentNetwork => {
+                network::run::<IntentNetwork>(self, listener, intent_network::SETTINGS, intents)
+            }
+            Trainee::TwoLevelLstm => {
+                network::run::<TwoLevelLstm>(self, listener, recognition::SETTINGS, labelled)
+            }
+            Trainee::Arg => network::run::<Arg>(self, listener, recognition::SETTINGS, labelled),
+            Trainee::SocialGnn => network::run::<SocialGnn>(self, listener, social_gnn::SETTINGS, labelled),
+            Trainee::SocialLstm => network::run::<SocialLstm>(self, listener, forecasting::SETTINGS, nodes),
+            Trainee::Stgat => network::run::<Stgat>(self, listener, forecasting::SETTINGS, nodes),
+        }
+    }
+}
+
+fn intents(recording: &Recording, observed: &ObservedEvent) -> Result<LabelledIntents, TrainError> {
+    LabelledIntents::new(observed, recording.scene.goals(), recording.scene.attitudes())
+        .map_err(|source| TrainError::Hypothesis { id: recording.id.clone(), source })
+}
+
+fn labelled(recording: &Recording, observed: &ObservedEvent) -> Result<LabelledEvent, TrainError> {
+    LabelledEvent::new(observed, recording.scene.goals(), recording.relation)
+        .map_err(|source| TrainError::Label { id: recording.id.clone(), source })
+}
