@@ -126,13 +126,15 @@ fn the_engine_is_recorded_and_kept_to() {
     );
     assert!(tree(&path.join("forward")) == forward);
 
-    // Before there was a choice, nothing was recorded.
+    // A manifest that names no engine is that of another run.
     let world = path.join("world");
     let mut manifest = Manifest::read(&world.join("manifest.json")).expect("a manifest");
     manifest.settings.as_object_mut().expect("settings").remove("engine").expect("an engine");
     manifest.write(&world).expect("written");
-    assert!(succeed(path, &generate("world", &["--engine", "world"])).contains("already"));
-    refuse(path, &generate("world", &["--engine", "forward"]));
+    for engine in ["world", "forward"] {
+        let sentence = refuse(path, &generate("world", &["--engine", engine]));
+        assert!(sentence.contains("settings.engine null instead of"), "{sentence}");
+    }
 }
 
 #[test]

@@ -81,10 +81,10 @@ impl Simulations {
     /// # Errors
     /// If the events or the folder cannot be used, a scene cannot be simulated, a file cannot be written, or a stop was requested.
     pub fn run(&self, listener: &dyn Listener) -> Result<Simulated, RunError> {
+        let settings = self.effort.settings()?;
         let chosen = inputs(self, listener)?;
         let seeds = seeds(self)?;
         check_ids(self, &chosen, &seeds)?;
-        let settings = self.effort.settings()?;
         let run = run_of(self, &settings, &chosen)?;
         let out = &self.out;
         match folder::inspect(out, SUMMARY_FILE)? {
