@@ -21,7 +21,7 @@ fn scene(alpha: i8) -> Scene {
     let agents =
         [agent(0, arena::LANDMARKS[0], goal(0, 1)), agent(alpha, Vec2::new(23.5, 8.0), goal(subject, sign))];
     let scene = json!({ "layout": { "base": 0 }, "objects": [], "event": "independent", "agents": agents });
-    Scene::from_json(&scene.to_string()).unwrap()
+    Scene::from_json(&scene.to_string()).expect("the scene is valid")
 }
 
 #[test]

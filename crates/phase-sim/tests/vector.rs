@@ -14,7 +14,7 @@ use rand::RngExt;
 const KINDS: [&str; 6] = ["helping", "hindering", "chasing", "competing", "collaborating", "independent"];
 
 fn scene(kind: &str, seed: u64) -> Scene {
-    phase_sampler::sample_named(Some(kind), None, seed).unwrap()
+    phase_sampler::sample_named(Some(kind), None, seed).expect("the kind has a scene")
 }
 
 /// Both agents' vectors after some random steps, with contacts among them.

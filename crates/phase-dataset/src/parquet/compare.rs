@@ -37,7 +37,7 @@ pub fn compare(folder: &Path, part: &ParquetFile, events: &[&EventEntry]) -> Res
         }
     }
     let is_same =
-        rows.finish().map_err(unwritten)?.is_same().map_err(|error| fail(Problem::Unreadable(error)))?;
+        rows.finish().map_err(unwritten)?.agrees().map_err(|error| fail(Problem::Unreadable(error)))?;
     if is_same { Ok(()) } else { Err(differs()) }
 }
 
@@ -54,7 +54,7 @@ impl Comparison {
     }
 
     /// Whether the file holds what was written and no more.
-    fn is_same(mut self) -> io::Result<bool> {
+    fn agrees(mut self) -> io::Result<bool> {
         Ok(!self.differs && self.file.read(&mut [0])? == 0)
     }
 }

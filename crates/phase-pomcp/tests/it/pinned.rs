@@ -34,7 +34,6 @@ fn settings(random: &mut impl Rng) -> PomcpSettings {
         stop_when_decided: random.random(),
         convergence: if random.random() { 0.0 } else { random.random_range(0.0..0.3) },
         untried_first: random.random(),
-        ..PomcpSettings::default()
     }
 }
 
