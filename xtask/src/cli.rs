@@ -33,7 +33,7 @@ pub struct Cli {
 pub enum Command {
     /// A command of `phase`.
     #[command(flatten)]
-    Phase(phase_cli::cli::Command),
+    Phase(Box<phase_cli::cli::Command>),
     /// A command of a package below `xtask/`.
     #[command(flatten)]
     Elsewhere(Elsewhere),
@@ -56,12 +56,14 @@ impl Interface for Cli {
 
     fn run(&self, context: &Context) -> Result<(), XtaskError> {
         match &self.command {
-            // The source can build what an installed program includes.
-            Command::Phase(phase_cli::cli::Command::Playground(Playground { out, wasm: None })) => {
-                let wasm = Some(wasm::build(context)?);
-                Ok(playground::run(&Playground { out: out.clone(), wasm }, context)?)
-            }
-            Command::Phase(command) => Ok(command.run(context)?),
+            Command::Phase(command) => match &**command {
+                // The source can build what an installed program includes.
+                phase_cli::cli::Command::Playground(Playground { out, wasm: None }) => {
+                    let wasm = Some(wasm::build(context)?);
+                    Ok(playground::run(&Playground { out: out.clone(), wasm }, context)?)
+                }
+                command => Ok(command.run(context)?),
+            },
             Command::Elsewhere(line) => line.run(self.verbosity),
             Command::Book(options) => book::run(options),
             Command::Leaderboard(options) => leaderboard::run(options, context),

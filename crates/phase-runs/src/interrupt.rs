@@ -24,7 +24,6 @@ pub fn requested() -> bool {
 }
 
 /// Whether a computation goes on, for callbacks that are asked after each of its steps.
-#[must_use]
 pub(crate) fn goes_on() -> ControlFlow<()> {
     if requested() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
 }

@@ -188,11 +188,11 @@ fn tests_of(code: &str) -> Vec<bool> {
         let mut last = first;
         if lines[first].trim() == "#[cfg(test)]" {
             let indent = |line: &str| line.len() - line.trim_start().len();
-            let begins = |line: &&str| !line.trim().is_empty() && !line.trim_start().starts_with('#');
-            let item = lines[first..].iter().position(|line| begins(&line)).unwrap_or(0);
+            let begins = |line: &str| !line.trim().is_empty() && !line.trim_start().starts_with('#');
+            let item = lines[first..].iter().position(|line| begins(line)).unwrap_or(0);
             let ends =
-                |line: &&str| indent(line) == indent(lines[first]) && line.trim_end().ends_with([';', '}']);
-            let length = lines[first + item..].iter().position(|line| ends(&line)).unwrap_or(0);
+                |line: &str| indent(line) == indent(lines[first]) && line.trim_end().ends_with([';', '}']);
+            let length = lines[first + item..].iter().position(|line| ends(line)).unwrap_or(0);
             last += item + length;
             tests[first..=last].fill(true);
         }

@@ -28,7 +28,7 @@ pub struct Cli {
 pub enum Command {
     /// A command of `phase`, which this program starts to disturb it.
     #[command(flatten)]
-    Phase(phase_cli::cli::Command),
+    Phase(Box<phase_cli::cli::Command>),
     /// Edit a dataset many times, and count what verify finds
     CheckVerify(CheckVerify),
     /// Stop commands while they write, and check that nothing is lost

@@ -58,7 +58,11 @@ pub fn merge(shards: &[PathBuf], out: &Path, listener: &dyn Listener) -> Result<
     drop(progress);
     let completed = complete(out, whole, &shards, listener)?;
     folder.finish()?;
-    Ok(Generated { folder: out.to_owned(), events: whole.events, outcome: Outcome::Made(completed) })
+    Ok(Generated {
+        folder: out.to_owned(),
+        events: whole.events,
+        outcome: Outcome::Made(Box::new(completed)),
+    })
 }
 
 /// All shards of one dataset, in order, with their folders; never empty.

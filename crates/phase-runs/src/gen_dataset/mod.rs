@@ -78,7 +78,7 @@ pub struct Generated {
 #[derive(Debug)]
 pub enum Outcome {
     /// The whole dataset is made.
-    Made(Completed),
+    Made(Box<Completed>),
     /// A shard is made, by its number from 1 and the number of shards.
     MadeShard(usize, usize),
     /// It was there already, and is whole: `dataset` or `shard`.
@@ -149,7 +149,11 @@ impl Generation {
         }
         let completed = complete(&out, &plan.whole(), &records, listener)?;
         folder.finish()?;
-        Ok(Generated { folder: out, events: completed.overview.events, outcome: Outcome::Made(completed) })
+        Ok(Generated {
+            folder: out,
+            events: completed.overview.events,
+            outcome: Outcome::Made(Box::new(completed)),
+        })
     }
 }
 
