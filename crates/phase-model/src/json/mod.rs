@@ -9,3 +9,4 @@ mod similar;
 pub use error::{FieldError, JsonError};
 pub use field::{Field, finite, shown};
 pub use parse::{check_format, parse, parse_text};
+pub use similar::edit_distance;

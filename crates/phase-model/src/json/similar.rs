@@ -4,18 +4,26 @@
 /// letters may be wrong, at most three, ignoring case. Of equally close ones the first.
 pub(super) fn nearest<'a>(word: &str, candidates: &[&'a str]) -> Option<&'a str> {
     let word = plain(word);
-    let distance = |candidate: &str| edits(&word, &plain(candidate));
+    let distance = |candidate: &str| edit_distance(&word, &plain(candidate));
     let nearest = candidates.iter().copied().min_by_key(|candidate| distance(candidate))?;
     let allowed = (nearest.chars().count() / 3).clamp(1, 3);
     (distance(nearest) <= allowed).then_some(nearest)
 }
 
-fn plain(word: &str) -> Vec<char> {
-    word.to_lowercase().replace(['-', ' '], "_").chars().collect()
-}
-
-/// Minimum number of letters to insert, remove, replace or swap with a neighbour (optimal string alignment).
-fn edits(a: &[char], b: &[char]) -> usize {
+/// Edit distance of two words: the least number of letters to insert, remove, replace or swap with a neighbour
+/// (optimal string alignment). It tells which of several names was probably meant by a misspelt one.
+///
+/// # Examples
+/// ```
+/// use phase_model::json::edit_distance;
+///
+/// assert_eq!(edit_distance("agnet", "agent"), 1);
+/// assert_eq!(edit_distance("goal", "goals"), 1);
+/// ```
+#[must_use]
+pub fn edit_distance(a: &str, b: &str) -> usize {
+    let a: Vec<char> = a.chars().collect();
+    let b: Vec<char> = b.chars().collect();
     // Row i holds the edits from the first i letters of `a` to the first j of `b`.
     let mut rows: Vec<Vec<usize>> = vec![(0..=b.len()).collect()];
     for i in 1..=a.len() {
@@ -31,4 +39,8 @@ fn edits(a: &[char], b: &[char]) -> usize {
         rows.push(row);
     }
     rows[a.len()][b.len()]
+}
+
+fn plain(word: &str) -> String {
+    word.to_lowercase().replace(['-', ' '], "_")
 }

@@ -8,6 +8,7 @@ use phase_baselines::training::{NetworkError, TrainingRecordError};
 use phase_dataset::ExportError;
 use phase_event::{EventWriteError, MethodError};
 use phase_files::{FileError, WriteError, folder::FolderError};
+use phase_model::json::edit_distance;
 use phase_render::RenderError;
 use phase_sampler::SampleError;
 use phase_sim::SimulationError;
@@ -259,20 +260,4 @@ impl From<ExportError> for RunError {
             ExportError::Write(error) => Self::Write(error),
         }
     }
-}
-
-/// Edit distance: minimum number of letters to insert, remove or replace to get from one text to the other.
-fn edit_distance(a: &str, b: &str) -> usize {
-    let b: Vec<char> = b.chars().collect();
-    let mut row: Vec<usize> = (0..=b.len()).collect();
-    for (i, letter) in a.chars().enumerate() {
-        let mut diagonal = row[0];
-        row[0] = i + 1;
-        for (j, &other) in b.iter().enumerate() {
-            let replaced = diagonal + usize::from(letter != other);
-            diagonal = row[j + 1];
-            row[j + 1] = replaced.min(diagonal + 1).min(row[j] + 1);
-        }
-    }
-    row[b.len()]
 }
