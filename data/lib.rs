@@ -1,9 +1,9 @@
-//! What comes with PHASE: trained weights with the records of their training, fitted models, rating forms, and presets of datasets, as
-//! bytes and text.
+//! Data that comes with PHASE: trained weights with the records of their training, fitted models, rating
+//! forms, and presets of datasets, as bytes and text.
 //!
-//! The files are made by commands (docs/networks.md, docs/simple.md, docs/dataset.md) and lie beside this file. Key design decision: one
-//! crate has them all, so that every other crate can be packed without files from outside of it. What a program does not use is not
-//! linked into it.
+//! The files are made by commands (docs/networks.md, docs/simple.md, docs/dataset.md) and lie beside this
+//! file. Key design decision: one crate has them all, so that every other crate can be packed without files
+//! from outside of it. What a program does not use is not linked into it.
 //!
 //! Every preset has a name, and every network the record of its training:
 //!
@@ -46,14 +46,14 @@ pub const STRENGTH_WEIGHTS: &[u8] = include_bytes!("strength.safetensors");
 /// The 2-Level LSTM.
 pub const TWO_LEVEL_LSTM: Trained = trained!("two-level-lstm.safetensors");
 
-/// How people report what they saw (JSON, docs/simple.md).
+/// The model of how people report what they saw (JSON, docs/simple.md).
 pub const REPORT_MODEL: &str = include_str!("report-model.json");
-/// The record of its fit: to whose ratings, and how it agrees with those held out of it (JSON, format phase-report-training/1,
-/// docs/formats.md).
+/// The record of its fit: to whose ratings, and how it agrees with those held out of it (JSON, format
+/// phase-report-training/1, docs/formats.md).
 pub const REPORT_TRAINING: &str = include_str!("report-model.training.json");
 
-/// The rating forms: what people are asked about a video (JSON, format phase-forms/1, docs/formats.md). The 23 types of interaction are
-/// those of the paper, in its order.
+/// The rating forms: what people are asked about a video (JSON, format phase-forms/1, docs/formats.md). The
+/// 23 types of interaction are those of the paper, in its order.
 pub const FORMS: &str = include_str!("forms.json");
 
 /// Twelve events, two of each kind (JSON, format phase-preset/3, as all presets).

@@ -1,5 +1,5 @@
-//! Includes the playground's WebAssembly, if it has been built: `PHASE_PLAYGROUND` names the folder with `phase.js` and
-//! `phase_bg.wasm`, as `cargo xtask playground` leaves it in `target/playground`.
+//! Includes the playground's WebAssembly, if it has been built: `PHASE_PLAYGROUND` names the folder with
+//! `phase.js` and `phase_bg.wasm`, as `cargo xtask playground` leaves it in `target/playground`.
 
 use std::{env, error::Error, fs, path::Path};
 

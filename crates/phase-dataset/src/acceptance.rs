@@ -1,4 +1,4 @@
-//! How many scenes were tried for the events of a dataset, and why most were refused.
+//! Acceptance: the scenes that were tried for the events of a dataset, and the reasons why most were refused.
 
 use phase_evidence::selection::RejectionReason;
 use phase_sampler::Variant;
@@ -15,7 +15,7 @@ pub struct Refusal {
     pub reason: RejectionReason,
 }
 
-/// How often scenes of one variant showed their label.
+/// The share of the scenes of one variant that showed their label.
 #[derive(Clone, PartialEq, Eq, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Acceptance {
@@ -25,7 +25,7 @@ pub struct Acceptance {
     pub events: usize,
     /// Scenes simulated for them.
     pub attempts: usize,
-    /// How many were refused for each reason.
+    /// Numbers of scenes that were refused, by reason.
     pub refused: BTreeMap<RejectionReason, usize>,
 }
 
@@ -34,8 +34,8 @@ pub struct Acceptance {
 pub struct Tally(BTreeMap<Variant, Acceptance>);
 
 impl Tally {
-    /// Adds the attempts at one slot: the variants of its events, and what was refused. Events of a set that were dropped because another of the set was refused do not
-    /// count.
+    /// Adds the attempts at one slot: the variants of its events, and what was refused. Events of a set that
+    /// were dropped because another of the set was refused do not count.
     pub fn add(&mut self, accepted: impl IntoIterator<Item = Variant>, refused: &[Refusal]) {
         for variant in accepted {
             let row = self.row(variant);

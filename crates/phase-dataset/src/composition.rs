@@ -1,4 +1,5 @@
-//! What each event of a generated dataset is to be: the slots that a preset describes.
+//! Composition of a generated dataset: the slots that a preset describes, each for an event or a set of
+//! events.
 
 use crate::{
     preset::{Blocks, Preset, PresetGroup, SetGroup},
@@ -8,7 +9,7 @@ use phase_evidence::Manner;
 use phase_sampler::{About, Part, Stance, Variant};
 use std::collections::BTreeMap;
 
-/// What one event of a dataset is to be.
+/// A place for one event of a dataset, with everything that is decided before a scene is drawn.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct EventSlot {
     /// The variant.
@@ -34,12 +35,12 @@ pub struct BlockPlace {
     pub events: usize,
 }
 
-/// What a set of events that differ in the stance of one agent is to be.
+/// A place for a set of events that differ in the stance of one agent.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct SetSlot {
     /// The stances, one event each.
     pub stances: Vec<Stance>,
-    /// What the other agent's goal is about.
+    /// Subject of the other agent's goal: an object or a place.
     pub about: About,
     /// Index of that goal.
     pub goal_index: usize,
@@ -79,11 +80,12 @@ impl Composition {
         new
     }
 
-    /// Number of slots for this number of events: as many, unless they come in sets. `None` if the last set would be
-    /// incomplete.
+    /// Number of slots for this number of events: as many, unless they come in sets. `None` if the last set
+    /// would be incomplete.
     #[must_use]
     pub fn slots(&self, events: usize) -> Option<usize> {
-        let (mut slots, mut covered) = (0, 0);
+        let mut slots = 0;
+        let mut covered = 0;
         while covered < events {
             covered += self.set(slots).map_or(1, |set| set.stances.len());
             slots += 1;
@@ -91,7 +93,7 @@ impl Composition {
         (covered == events).then_some(slots)
     }
 
-    /// What the set with this number is to be, if the dataset consists of sets.
+    /// The slot of the set with this number, from 0; `None` if the dataset does not consist of sets.
     #[must_use]
     pub fn set(&self, index: usize) -> Option<SetSlot> {
         let slot = self.sets.get(index % self.sets.len().max(1))?;
@@ -106,7 +108,9 @@ impl Composition {
             for column in &blocks.columns {
                 let listed = column[number % column.len()];
                 let variant = group.replace.get(&listed).copied().unwrap_or(listed);
-                let (goal_index, split, layouts) = (self.turn(variant), group.split, group.layouts.clone());
+                let goal_index = self.turn(variant);
+                let split = group.split;
+                let layouts = group.layouts.clone();
                 self.slots.push(EventSlot { variant, goal_index, split, layouts, block });
             }
             self.blocks = number + 1;
@@ -120,7 +124,7 @@ impl Composition {
         *next - 1
     }
 
-    /// What the event with this number is to be, if the dataset does not consist of sets.
+    /// The slot of the event with this number, from 0, of a dataset that does not consist of sets.
     #[must_use]
     pub fn slot(&self, index: usize) -> EventSlot {
         let slot = &self.slots[index % self.slots.len()];
@@ -142,8 +146,8 @@ impl Composition {
     }
 }
 
-/// Each group as often as it counts, evenly distributed: item j of n is at (2 j + 1) / 2 n of the way, and equal places
-/// keep the groups' order.
+/// Each group as often as it counts, evenly distributed: item j of n is at (2 j + 1) / 2 n of the way, and
+/// equal places keep the groups' order.
 fn interleaved<T>(groups: &[T], count: impl Fn(&T) -> usize) -> Vec<&T> {
     let mut places: Vec<(usize, usize, &T)> = groups
         .iter()

@@ -67,7 +67,8 @@ impl CachedEvent {
         Self {
             layout: (scene.layout.base(), scene.layout.flip().map(u8::from)),
             agents: scene.agents.map(|agent| {
-                let (size, strength) = (agent.size.level(), agent.strength.level());
+                let size = agent.size.level();
+                let strength = agent.strength.level();
                 (size, strength, CachedGoal::of(agent.goal), agent.attitude.alpha(), agent.start)
             }),
             objects: scene.objects.iter().map(|object| (object.size.level(), object.start)).collect(),

@@ -18,7 +18,7 @@ pub struct SetPlace {
     /// Name of the set.
     #[serde(deserialize_with = "ids::deserialize")]
     pub set: String,
-    /// What the changed agent wants with regard to the other.
+    /// Stance of the changed agent towards the other.
     pub stance: Stance,
 }
 
@@ -36,7 +36,7 @@ pub struct SetEntry {
     /// Every two of its events.
     pub pairs: Vec<PairEntry>,
     /// The events side by side, unless the dataset was generated without videos.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub video: Option<FileEntry>,
 }
 
@@ -56,7 +56,7 @@ pub struct PairEntry {
     pub farthest: f32,
 }
 
-/// Where two events visibly part.
+/// The first difference of two events that can be seen in their videos.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SeenDifference {
@@ -103,7 +103,7 @@ pub fn member_id(set: &str, index: usize) -> String {
     format!("{set}{letter}")
 }
 
-/// Where the video of a set lies in a dataset's folder.
+/// Path of the video of a set, relative to the dataset's folder.
 #[must_use]
 pub fn set_video_path(id: &str) -> String {
     format!("videos/{id}.mp4")

@@ -1,11 +1,11 @@
-//! What classifiers predict: goals and kinds of interaction, as classes.
+//! Classes of goals and of kinds of interaction, which classifiers predict.
 
 use phase_model::{AGENT_COUNT, EventKind, Goal, LandmarkId, ObjectId, Sign};
 use std::collections::BTreeMap;
 
-/// The class of one agent's goal. There are sixteen: the paper's fourteen physical goals, in which an agent's own
-/// number plays no part, and the two social ones, which hide the goal that they are about. In an event each
-/// agent is one example of its class.
+/// The class of one agent's goal. There are sixteen: the paper's fourteen physical goals, in which an agent's
+/// own number plays no part, and the two social ones, which hide the goal that they are about. In an event
+/// each agent is one example of its class.
 #[must_use]
 pub fn goal_label(goal: Goal, alpha: i8) -> String {
     match (alpha, goal) {
@@ -22,7 +22,7 @@ pub fn goal_label(goal: Goal, alpha: i8) -> String {
     }
 }
 
-/// How many examples each of the sixteen classes has, and any other that occurs.
+/// Numbers of examples of the sixteen classes, and of any other that occurs.
 pub fn goal_counts(agents: impl IntoIterator<Item = (Goal, i8)>) -> BTreeMap<String, usize> {
     let mut counts: BTreeMap<String, usize> = classes().into_iter().map(|class| (class, 0)).collect();
     for (goal, alpha) in agents {

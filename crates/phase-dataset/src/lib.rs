@@ -1,11 +1,12 @@
 //! Datasets of PHASE events on disk: files, presets, splits, manifests, Parquet, and checks of them all.
 //!
-//! - [`phase_events`] reads files of the exchange format `phase-events/1`, whose events `phase-event` describes.
-//! - [`manifest`] describes a generated dataset to programs, [`overview`] is the same without its events; pages and tables
-//!   for people are made elsewhere.
+//! - [`phase_events`] reads files of the exchange format `phase-events/1`, whose events `phase-event`
+//!   describes.
+//! - [`manifest`] describes a generated dataset to programs, [`overview`] is the same without its events;
+//!   pages and tables for people are made elsewhere.
 //! - [`parquet`] and [`croissant`] are for external tools; [`mod@verify`] checks that all files agree.
-//! - [`event_set`] describes minimal pairs. [`preset`] defines the composition of a dataset, [`splits`] how it is divided, [`slot_record`],
-//!   [`acceptance`] and [`shard`] what was tried for each of its events.
+//! - [`event_set`] describes minimal pairs. [`preset`] defines the composition of a dataset, [`splits`] how
+//!   it is divided, [`slot_record`], [`acceptance`] and [`shard`] what was tried for each of its events.
 //! - [`summary`] compares simulations with recordings.
 //! - [`event_cache`] keeps finished events for a run that goes on.
 //!

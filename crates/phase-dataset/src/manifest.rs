@@ -25,15 +25,19 @@ pub const DATASET_FORMAT: &str = "phase-dataset/1";
 pub const MANIFEST_FILE: &str = "manifest.json";
 /// The file with the manifest's checksum, in the form of `sha256sum`. It is written before the manifest.
 pub const DIGEST_FILE: &str = "manifest.sha256";
-/// Detached signatures of the manifest, by `ssh-keygen -Y sign` and by minisign. They are not part of the dataset, but may lie in
-/// its folder.
-pub const SIGNATURE_FILES: [&str; 2] = ["manifest.json.sig", "manifest.json.minisig"];
+/// Detached signatures of the manifest, by `ssh-keygen -Y sign` and by minisign. They are not part of the
+/// dataset, but may lie in its folder.
+pub(crate) const SIGNATURE_FILES: [&str; 2] = ["manifest.json.sig", "manifest.json.minisig"];
 /// File name of the dataset card.
 pub const CARD_FILE: &str = "README.md";
 /// File name of the gallery, the page that shows every video; a dataset without videos has none.
 pub const PAGE_FILE: &str = "index.html";
 
-/// A whole dataset.
+/// A whole dataset, as `manifest.json` describes it.
+///
+/// It lists every event with its labels, seed and files, and every other file, each with size and SHA-256.
+/// The checksum of the manifest therefore stands for the dataset. Files that are read are not trusted:
+/// [`Self::read`] checks their form, [`Self::verify`] their contents.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Manifest {
@@ -46,11 +50,11 @@ pub struct Manifest {
     /// The random seed of the dataset.
     pub seed: u64,
     /// The date of publication, if it was given: YYYY-MM-DD.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub date_published: Option<String>,
     /// Settings of simulation and agents.
     pub settings: Value,
-    /// How many scenes were tried and why most were rejected, by variant; empty where nothing was selected.
+    /// Scenes tried and reasons why most were rejected, by variant; empty where nothing was selected.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub selection: Vec<Acceptance>,
     /// The events, in order.
@@ -62,7 +66,7 @@ pub struct Manifest {
     pub files: Vec<FileEntry>,
 }
 
-/// One event of a dataset.
+/// One event of a dataset: its labels, the outcome of its goals, and its files.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct EventEntry {
@@ -72,13 +76,13 @@ pub struct EventEntry {
     /// The intended kind of event.
     pub kind: EventKind,
     /// The variant of its kind; unknown for events of other programs.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub variant: Option<Variant>,
     /// The set that it belongs to, if it belongs to one.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub set: Option<SetPlace>,
     /// The part of the dataset it belongs to, if the dataset is divided.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub split: Option<Split>,
     /// The relation that follows from goals and attitudes.
     pub relation: Relation,
@@ -98,7 +102,7 @@ pub struct EventEntry {
     /// The event with everything known about it.
     pub event: FileEntry,
     /// The video, unless the dataset was generated without.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub video: Option<FileEntry>,
 }
 
@@ -189,7 +193,7 @@ impl EventEntry {
 
 /// The text of [`DIGEST_FILE`].
 #[must_use]
-pub fn digest_line(sha256: &str) -> String {
+pub(crate) fn digest_line(sha256: &str) -> String {
     format!("{sha256}  {MANIFEST_FILE}\n")
 }
 
@@ -201,13 +205,13 @@ pub fn write_digest(folder: &Path, sha256: &str) -> Result<(), WriteError> {
     atomic::write(&folder.join(DIGEST_FILE), digest_line(sha256).as_bytes())
 }
 
-/// Where an event's JSON lies in a dataset's folder.
+/// Path of an event's JSON, relative to the dataset's folder.
 #[must_use]
 pub fn event_path(id: &str) -> String {
     format!("events/{id}.json")
 }
 
-/// Where an event's video lies in a dataset's folder.
+/// Path of an event's video, relative to the dataset's folder.
 #[must_use]
 pub fn video_path(id: &str) -> String {
     format!("videos/{id}.mp4")
@@ -234,7 +238,8 @@ impl Manifest {
         serde_json::to_string_pretty(self).map(|text| text + "\n")
     }
 
-    /// Writes the manifest into a folder, each file atomically: first [`DIGEST_FILE`], then [`MANIFEST_FILE`].
+    /// Writes the manifest into a folder, each file atomically: first [`DIGEST_FILE`], then
+    /// [`MANIFEST_FILE`].
     ///
     /// # Errors
     /// If it cannot be written as JSON, or a file cannot be written.

@@ -54,7 +54,8 @@ impl<T: Serialize, I: IntoIterator<Item = T>, F: Fn(SlotRecord) -> I> Serialize 
     }
 }
 
-/// Writes the manifest of a dataset into a folder, its digest first, each atomically, and returns the digest. The events are those of the records, of which one at a time is in memory.
+/// Writes the manifest of a dataset into a folder, its digest first, each atomically, and returns the digest.
+/// The events are those of the records, of which one at a time is in memory.
 ///
 /// # Errors
 /// [`ExportError`].

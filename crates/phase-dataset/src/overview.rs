@@ -1,4 +1,5 @@
-//! A dataset without its events: how it was generated, how many events of each kind it has, and its other files.
+//! A dataset without its events: how it was generated, how many events of each kind it has, and its other
+//! files.
 
 use crate::{
     acceptance::Acceptance,
@@ -11,8 +12,8 @@ use phase_model::EventKind;
 use serde_json::Value;
 use std::collections::BTreeMap;
 
-/// Everything about a dataset whose size does not depend on its number of events, apart from one file for every few thousand
-/// of them.
+/// Everything about a dataset whose size does not depend on its number of events, apart from one file for
+/// every few thousand of them.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Overview {
     /// Name and version of the program that generated it.
@@ -25,7 +26,7 @@ pub struct Overview {
     pub date_published: Option<String>,
     /// Settings of simulation and agents.
     pub settings: Value,
-    /// How many scenes were tried and why most were rejected, by variant; empty where nothing was selected.
+    /// Scenes tried and reasons why most were rejected, by variant; empty where nothing was selected.
     pub selection: Vec<Acceptance>,
     /// Number of events.
     pub events: usize,

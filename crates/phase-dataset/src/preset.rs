@@ -19,13 +19,17 @@ use std::{
 pub const PRESET_FORMAT: &str = "phase-preset/3";
 
 /// Most events of a dataset: their descriptions are in memory at once.
-pub const MOST_EVENTS: usize = 1_000_000;
+pub(crate) const MOST_EVENTS: usize = 1_000_000;
 /// Longest event of a dataset (steps).
 pub const MOST_STEPS: usize = 10_000;
 /// Most scenes that are tried for an event.
-pub const MOST_ATTEMPTS: usize = 1_000_000;
+const MOST_ATTEMPTS: usize = 1_000_000;
 
-/// A recipe for a dataset.
+/// A recipe for a dataset, as `data/presets/NAME.json` has it (`phase-preset/3`).
+///
+/// It says how many events of which variants there are, in which layouts and splits, and which scenes are
+/// accepted. With a seed it determines the dataset. The members of a file that may be absent are optional
+/// here.
 #[derive(Clone, PartialEq, Eq, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Preset {
@@ -37,19 +41,20 @@ pub struct Preset {
     pub seed: u64,
     /// Names for sets of base layouts; each is used unchanged and in its four reflections.
     pub layouts: BTreeMap<String, Vec<u8>>,
-    /// What an event has to satisfy; without it the first scene drawn is accepted.
+    /// Conditions that an event has to satisfy; without them the first scene drawn is accepted.
     pub selection: Option<Selection>,
-    /// What the dataset is composed of, if each event has bodies of its own.
+    /// Composition of a dataset in which each event has bodies of its own.
     #[serde(default)]
     pub groups: Vec<PresetGroup>,
-    /// What it is composed of, if events of several kinds share bodies.
+    /// Composition of a dataset in which events of several kinds share bodies.
     pub blocks: Option<Blocks>,
-    /// What it is composed of, if its events differ in one social variable. A preset has groups, blocks or sets.
+    /// Composition of a dataset of sets, whose events differ in one social variable. A preset has groups,
+    /// blocks or sets.
     #[serde(default)]
     pub sets: Vec<SetGroup>,
 }
 
-/// Which events are accepted.
+/// Conditions under which an event is accepted.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Selection {
@@ -59,28 +64,30 @@ pub struct Selection {
     pub max_steps: usize,
     /// Maximum number of scenes tried for an event before the run fails.
     pub attempts: usize,
-    /// When events end.
+    /// Rule by which events end; [`Ends::Settled`] unless given.
     #[serde(default)]
     pub ends: Ends,
 }
 
-/// When the events of a dataset end.
+/// The rule by which the events of a dataset end.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Ends {
-    /// Once everything is settled; where that never happens, at the maximum length, so that length reveals the relation.
+    /// Once everything is settled; where that never happens, at the maximum length, so that length reveals
+    /// the relation.
     #[default]
     Settled,
-    /// As `Settled`, but adversarial events end at a step uniformly sampled from the minimum to the maximum at the latest.
+    /// As `Settled`, but adversarial events end at a step uniformly sampled from the minimum to the maximum
+    /// at the latest.
     AdversarialDrawn,
-    /// All events at a sampled step, before or after the outcome, so that length reveals nothing: the smaller of two
-    /// uniformly sampled steps, since long events in which all is settled show little.
+    /// All events at a sampled step, before or after the outcome, so that length reveals nothing: the smaller
+    /// of two uniformly sampled steps, since long events in which all is settled show little.
     Drawn,
 }
 
 impl Selection {
-    /// The length of an event (steps; minimum and maximum), if it is sampled. `seed` is that of the attempt and `slot` that
-    /// of the slot: rejections must not affect a length that is the same for all kinds.
+    /// The length of an event (steps; minimum and maximum), if it is sampled. `seed` is that of the attempt
+    /// and `slot` that of the slot: rejections must not affect a length that is the same for all kinds.
     #[must_use]
     pub fn sampled_length(&self, relation: Relation, seed: u64, slot: u64) -> Option<(usize, usize)> {
         let ends = self.max_steps.saturating_sub(self.min_steps) as u64 + 1;
@@ -118,7 +125,7 @@ pub struct PresetGroup {
 pub struct Blocks {
     /// For each event of a block, the variants that it has in turn. The first column proposes the bodies.
     pub columns: Vec<Vec<Variant>>,
-    /// How many blocks there are of what.
+    /// The blocks, grouped by the part of the dataset that they belong to.
     pub groups: Vec<BlockGroup>,
 }
 
@@ -143,7 +150,7 @@ pub struct BlockGroup {
 pub struct SetGroup {
     /// The stances of the changed agent, one event each.
     pub stances: Vec<Stance>,
-    /// What the other agent's goal is about.
+    /// Subject of the other agent's goal: an object or a place.
     pub about: About,
     /// The part of the dataset, if it is divided.
     pub split: Option<Split>,

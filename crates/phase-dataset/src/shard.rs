@@ -28,7 +28,7 @@ pub const SHARD_FILE: &str = "shard.json";
 /// File name of the records of a shard's slots: one a line, as JSON.
 pub const SLOTS_FILE: &str = "slots.jsonl";
 
-/// What a dataset is, apart from its events: the same for all of its shards.
+/// Description of a dataset apart from its events. All of its shards have the same one.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct DatasetDescription {
@@ -46,18 +46,12 @@ pub struct DatasetDescription {
     pub settings: Value,
     /// Whether events were selected.
     pub selected: bool,
-    /// Whether events have videos; not written if true, which is the default.
-    #[serde(default = "with_videos", skip_serializing_if = "Clone::clone")]
+    /// Whether events have videos.
     pub videos: bool,
     /// The date of publication, if it was given: YYYY-MM-DD.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub date_published: Option<String>,
     /// The command that generates the whole dataset.
     pub command: String,
-}
-
-const fn with_videos() -> bool {
-    true
 }
 
 /// One shard: the slots k − 1, k − 1 + n, k − 1 + 2 n … of the dataset.
@@ -66,7 +60,7 @@ const fn with_videos() -> bool {
 pub struct Shard {
     /// Always [`SHARD_FORMAT`].
     pub format: String,
-    /// Which one, from 1.
+    /// Number of the shard, from 1.
     pub shard: usize,
     /// Of how many.
     pub of: usize,
@@ -140,7 +134,8 @@ impl Shard {
     /// The records of its slots in a folder, in order.
     #[must_use]
     pub fn records(&self, folder: &Path) -> SlotReader {
-        let (file, fingerprint) = (folder.join(SLOTS_FILE), self.fingerprint.clone());
+        let file = folder.join(SLOTS_FILE);
+        let fingerprint = self.fingerprint.clone();
         let slots = slots(self.shard, self.of, self.whole.slots);
         SlotReader { file, fingerprint, preset: self.whole.preset.clone(), offset: 0, slots }
     }
@@ -160,8 +155,8 @@ pub fn write_slots(folder: &Path, records: &dyn Records) -> Result<(), ExportErr
     Ok(file.commit()?)
 }
 
-/// Reads the records of a shard one after the other. The file is opened for each of them, because a dataset may have more
-/// shards than a process may have open files.
+/// Reads the records of a shard one after the other. The file is opened for each of them, because a dataset
+/// may have more shards than a process may have open files.
 #[derive(Debug)]
 pub struct SlotReader {
     file: PathBuf,

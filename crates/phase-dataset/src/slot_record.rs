@@ -9,8 +9,8 @@ use phase_files::{FileError, Problem, WriteError, atomic, checksum::FileEntry};
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 
-/// The records of all slots of a dataset, or of a shard, in order. They are read from disk in every pass over them, so that a
-/// dataset may have any number of slots.
+/// The records of all slots of a dataset, or of a shard, in order. They are read from disk in every pass over
+/// them, so that a dataset may have any number of slots.
 pub trait Records {
     /// A pass over the records, all of which are filled.
     fn records(&self) -> Box<dyn Iterator<Item = Result<SlotRecord, FileError>> + '_>;
@@ -28,7 +28,6 @@ pub struct SlotRecord {
     /// The accepted events, once their files exist: one, or those of a set.
     pub entries: Vec<EventEntry>,
     /// The set that they form, if they do.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub set: Option<SetEntry>,
 }
 
@@ -72,7 +71,7 @@ impl SlotRecord {
 
     /// Whether its events, its set and their files have the names that belong to the slot with this name.
     #[must_use]
-    pub fn is_named(&self, slot: &str) -> bool {
+    pub(crate) fn is_named(&self, slot: &str) -> bool {
         let event = |(k, entry): (usize, &EventEntry)| {
             let in_set = self.set.is_some();
             let id = if in_set { member_id(slot, k) } else { slot.into() };

@@ -9,10 +9,10 @@ use std::{collections::BTreeMap, path::Path};
 /// The value of the field `format` of split files.
 pub const SPLITS_FORMAT: &str = "phase-splits/1";
 
-/// What such a file is called in messages.
+/// Name of this kind of file in messages.
 const WHAT: &str = "list of splits";
 
-/// Which events belong to which part.
+/// The ids of the events that belong to each part of a dataset.
 #[derive(Clone, PartialEq, Eq, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SplitList {

@@ -1,9 +1,9 @@
 //! Dividing a dataset into training, validation and test events.
 //!
-//! The rules are the paper's (section "Dataset Statistics"), in proportion for datasets of other sizes: 64 % train,
-//! 16 % validation, 20 % test; four fifths of the test events in layouts that no other event has; and 9 of 500
-//! events, all in the test set, of an interaction type that occurs nowhere else. A layout counts as seen if its
-//! base layout is, in whatever reflection, which is the stricter reading.
+//! The rules are the paper's (section "Dataset Statistics"), in proportion for datasets of other sizes: 64 %
+//! train, 16 % validation, 20 % test; four fifths of the test events in layouts that no other event has; and
+//! 9 of 500 events, all in the test set, of an interaction type that occurs nowhere else. A layout counts as
+//! seen if its base layout is, in whatever reflection, which is the stricter reading.
 
 use crate::labels::interaction_type;
 use phase_model::{AGENT_COUNT, EventKind, Goal, random};
@@ -50,7 +50,7 @@ pub struct Item {
     pub base: u8,
 }
 
-/// How many events of a dataset belong to each split.
+/// Numbers of events of a dataset that belong to each split.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct SplitQuota {
     /// Training events.
@@ -86,9 +86,9 @@ impl SplitQuota {
 pub struct Rule {
     /// In words.
     pub what: &'static str,
-    /// How many there should be.
+    /// Number of events that the rule asks for.
     pub wanted: usize,
-    /// How many there are.
+    /// Number of events that the split has.
     pub found: usize,
 }
 

@@ -1,5 +1,5 @@
-//! `videos/metadata.csv`: the labels of every video, beside the videos, as the `videofolder` loader of the `datasets` library
-//! reads them.
+//! `videos/metadata.csv`: the labels of every video, beside the videos, as the `videofolder` loader of the
+//! `datasets` library reads them.
 
 use crate::manifest::EventEntry;
 

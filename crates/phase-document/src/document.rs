@@ -20,7 +20,7 @@ pub enum Block {
     Plot {
         /// Name of its file, with ending.
         file: &'static str,
-        /// What it shows.
+        /// Subject of the document, shown above everything else.
         title: String,
         /// The picture.
         svg: String,
@@ -65,7 +65,8 @@ impl Document {
             }
             Block::Plot { svg, .. } => format!("<p>{svg}</p>\n"),
         });
-        let (title, blocks) = (escape(&self.title), blocks.collect::<String>());
+        let title = escape(&self.title);
+        let blocks = blocks.collect::<String>();
         format!(
             "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>{title}</title>\
              <style>{STYLE}</style></head>\n<body>\n<h1>{title}</h1>\n{blocks}</body></html>\n"

@@ -13,7 +13,8 @@ const TOP: usize = 44;
 /// values that are not finite or negative are empty.
 #[must_use]
 pub fn bars(title: &str, unit: &str, rows: &[(String, f64)]) -> String {
-    let (width, height) = (LABELS + BARS + 90, TOP + ROW * rows.len() + 12);
+    let width = LABELS + BARS + 90;
+    let height = TOP + ROW * rows.len() + 12;
     let longest = rows.iter().map(|(_, number)| length(*number)).fold(f64::MIN_POSITIVE, f64::max);
     let mut svg = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" \
@@ -23,8 +24,10 @@ pub fn bars(title: &str, unit: &str, rows: &[(String, f64)]) -> String {
         escape(title)
     );
     for (k, (name, number)) in rows.iter().enumerate() {
-        let (y, long) = (TOP + ROW * k, BARS as f64 * length(*number) / longest);
-        let (label, value) = (LABELS - 8, LABELS as f64 + long + 6.0);
+        let y = TOP + ROW * k;
+        let long = BARS as f64 * length(*number) / longest;
+        let label = LABELS - 8;
+        let value = LABELS as f64 + long + 6.0;
         // Writing to a string cannot fail.
         let _ = writeln!(
             svg,
@@ -107,7 +110,7 @@ impl<'a> Axis<'a> {
 /// A line through points.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Series<'a> {
-    /// What it shows.
+    /// Name of the series, shown beside its line.
     pub name: &'a str,
     /// The points, x and y.
     pub points: Vec<(f64, f64)>,
@@ -131,10 +134,13 @@ const MAX_TICKS: usize = 5;
 pub fn line_chart(title: &str, [x_axis, y_axis]: [Axis<'_>; 2], series: &[Series<'_>]) -> String {
     let longest = series.iter().map(|line| line.name.chars().count()).max().unwrap_or_default() as f64;
     let names = f64::max(MIN_LEGEND_WIDTH, CHARACTER_WIDTH * longest);
-    let (width, height) = (FIELD.0 + 2.0 * MARGIN + names, FIELD.1 + 2.0 * MARGIN);
+    let width = FIELD.0 + 2.0 * MARGIN + names;
+    let height = FIELD.1 + 2.0 * MARGIN;
     let at =
         |(x, y): (f64, f64)| (MARGIN + FIELD.0 * x_axis.place(x), MARGIN + FIELD.1 * (1.0 - y_axis.place(y)));
-    let (right, bottom, middle) = (MARGIN + FIELD.0, MARGIN + FIELD.1, MARGIN + FIELD.0 / 2.0);
+    let right = MARGIN + FIELD.0;
+    let bottom = MARGIN + FIELD.1;
+    let middle = MARGIN + FIELD.0 / 2.0;
     let mut svg = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" \
          viewBox=\"0 0 {width} {height}\" font-family=\"sans-serif\" font-size=\"13\">\n\
@@ -151,7 +157,8 @@ pub fn line_chart(title: &str, [x_axis, y_axis]: [Axis<'_>; 2], series: &[Series
     let shown = |mark: f64| (mark * 100.0).round() / 100.0;
     // Writing to a string cannot fail.
     for mark in x_axis.ticks() {
-        let (left, below) = (MARGIN + FIELD.0 * x_axis.place(mark), bottom + 20.0);
+        let left = MARGIN + FIELD.0 * x_axis.place(mark);
+        let below = bottom + 20.0;
         let _ = writeln!(
             svg,
             "<path d=\"M{left:.1} {MARGIN}V{bottom}\" stroke=\"#dddddd\"/>\
@@ -160,7 +167,8 @@ pub fn line_chart(title: &str, [x_axis, y_axis]: [Axis<'_>; 2], series: &[Series
         );
     }
     for mark in y_axis.ticks() {
-        let (up, beside) = (MARGIN + FIELD.1 * (1.0 - y_axis.place(mark)), MARGIN - 8.0);
+        let up = MARGIN + FIELD.1 * (1.0 - y_axis.place(mark));
+        let beside = MARGIN - 8.0;
         let _ = writeln!(
             svg,
             "<path d=\"M{MARGIN} {up:.1}H{right}\" stroke=\"#dddddd\"/>\
@@ -178,7 +186,8 @@ pub fn line_chart(title: &str, [x_axis, y_axis]: [Axis<'_>; 2], series: &[Series
             .iter()
             .map(|(x, y)| format!("<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"3.5\" fill=\"{colour}\"/>"))
             .collect();
-        let (from, y) = (right + 10.0, MARGIN + 20.0 * (k + 1) as f64);
+        let from = right + 10.0;
+        let y = MARGIN + 20.0 * (k + 1) as f64;
         let _ = writeln!(
             svg,
             "<polyline points=\"{}\" fill=\"none\" stroke=\"{colour}\" stroke-width=\"2\"/>{dots}\

@@ -74,7 +74,7 @@ pub struct Row<S> {
     /// Its scores.
     pub summary: S,
     /// Error breakdown of its goals; Task 1 only.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub mistakes: Option<goals::ErrorBreakdown>,
     /// Scores on events with seen and unseen layouts or interaction types; empty if unknown.
     pub parts: Vec<Subset<S>>,

@@ -11,7 +11,7 @@ use std::{
 };
 
 /// Suffix of files that are still being written.
-pub const PART_SUFFIX: &str = ".part";
+const PART_SUFFIX: &str = ".part";
 
 /// Writes a file atomically. Folders on the way must exist.
 ///
@@ -32,10 +32,10 @@ pub fn write_json(path: &Path, value: &impl Serialize) -> Result<(), WriteError>
     write(path, format!("{text}\n").as_bytes())
 }
 
-/// The same on one line, for files that are large or for internal use.
+/// Writes a value as JSON on one line, atomically: for files that are large or that only programs read.
 ///
 /// # Errors
-/// As [`write_json`].
+/// If the value has no form in JSON, or the file cannot be written.
 pub fn write_json_line(path: &Path, value: &impl Serialize) -> Result<(), WriteError> {
     let text = serde_json::to_string(value).map_err(|error| WriteError::json(path, error))?;
     write(path, format!("{text}\n").as_bytes())
@@ -78,6 +78,10 @@ pub fn remove(path: &Path) -> Result<(), WriteError> {
 }
 
 /// A file that appears under its name only when it is finished.
+///
+/// Bytes go to a hidden file beside it, which [`AtomicFile::commit`] syncs and renames. If the file is
+/// dropped before, or the program ends, nothing is left under the name, and an older file of this name is
+/// unchanged.
 #[derive(Debug)]
 pub struct AtomicFile {
     path: PathBuf,

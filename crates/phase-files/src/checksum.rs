@@ -11,7 +11,10 @@ use std::{
     path::Path,
 };
 
-/// A file of a dataset as listed in its manifest.
+/// A file as a list of files has it: path, size and checksum.
+///
+/// The path is relative to the folder of the list and never leads out of it, so a list from elsewhere cannot
+/// make a program read other files.
 #[derive(Clone, PartialEq, Eq, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct FileEntry {
@@ -44,7 +47,7 @@ impl FileEntry {
         }
     }
 
-    /// Where the file is in the dataset's folder.
+    /// The path of the file, whose own is relative to a folder.
     #[must_use]
     pub fn place(&self, folder: &Path) -> std::path::PathBuf {
         self.path.below(folder)

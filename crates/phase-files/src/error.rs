@@ -1,4 +1,4 @@
-//! What can be wrong with a file, in one plain sentence each.
+//! Errors of files: each names the file and says in one plain sentence what is wrong with it.
 
 use phase_model::{json::JsonError, path::PathError};
 use std::{
@@ -13,12 +13,12 @@ use thiserror::Error;
 pub struct FileError {
     /// The file.
     pub file: PathBuf,
-    /// What is wrong with it.
+    /// The problem, which does not name the file.
     #[source]
     pub problem: Problem,
 }
 
-/// What is wrong with a file, without its name.
+/// A problem with a file, in words that do not name the file.
 #[derive(Debug, Error)]
 pub enum Problem {
     /// It cannot be opened or read.
@@ -36,17 +36,17 @@ pub enum Problem {
     /// It is JSON of the right format, but some of it is missing, unknown or of the wrong type.
     #[error("is no complete {what}: {source}")]
     Incomplete {
-        /// What it should be.
+        /// The kind of file that was expected, such as `dataset manifest`.
         what: &'static str,
-        /// What is wrong.
+        /// The reader's own words, with line and column.
         source: serde_json::Error,
     },
     /// It is JSON of the right format and complete, but its parts do not agree.
     #[error("is not a complete {what}: {rule}")]
     Shape {
-        /// What it should be.
+        /// The kind of file that was expected, such as `list of splits`.
         what: &'static str,
-        /// What is wrong.
+        /// The rule that the file breaks.
         rule: String,
     },
     /// Its size or checksum is not the one in the manifest.
@@ -97,7 +97,7 @@ impl WriteError {
 
 /// The system's error message without its number.
 #[must_use]
-pub fn plain_reason(error: &io::Error) -> String {
+pub(crate) fn plain_reason(error: &io::Error) -> String {
     let text = error.to_string();
     text.split(" (os error").next().unwrap_or_default().to_lowercase()
 }

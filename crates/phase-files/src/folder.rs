@@ -18,10 +18,10 @@ use thiserror::Error;
 const MARKER: &str = ".phase-run.json";
 /// The file that a running program keeps locked. The system unlocks it however the program ends.
 const LOCK: &str = ".phase-lock";
-/// Where a run keeps what it may need again if it is interrupted.
+/// Name of the folder of what a run needs again after an interruption.
 const CACHE: &str = ".cache";
 
-/// What a folder contains.
+/// The contents of a folder, as far as they decide whether a run may write into it.
 #[derive(Clone, PartialEq, Debug)]
 pub enum Contents {
     /// Nothing, or it is not there at all.
@@ -64,7 +64,7 @@ pub enum FolderError {
         path: PathBuf,
         /// `an unfinished`, `a finished` or `a part of a`.
         state: &'static str,
-        /// How that run differs from the one that was asked for.
+        /// The difference between that run and the one that was asked for, as a clause.
         difference: String,
     },
     /// It belongs to a run of an earlier version, whose description cannot be compared.
@@ -107,7 +107,24 @@ pub fn inspect(path: &Path, last_file: &str) -> Result<Contents, FolderError> {
     }
 }
 
-/// That no other program writes into a folder, until this is dropped.
+impl Run {
+    /// Checks that the run that a folder holds is this one. `state` is `an unfinished`, `a finished` or `a
+    /// part of a`.
+    ///
+    /// # Errors
+    /// [`FolderError::EarlierRun`] or [`FolderError::OtherRun`].
+    pub fn check(&self, folder: &Path, state: &'static str, held: &Value) -> Result<(), FolderError> {
+        if held["format"] != RUN_FORMAT {
+            return Err(FolderError::EarlierRun(folder.to_owned()));
+        }
+        match self.difference(held) {
+            None => Ok(()),
+            Some(difference) => Err(FolderError::OtherRun { path: folder.to_owned(), state, difference }),
+        }
+    }
+}
+
+/// A lock on a folder: no other program writes into it until this is dropped.
 #[derive(Debug)]
 pub struct Lock {
     // Held for its lock alone.
@@ -134,6 +151,9 @@ impl Lock {
 }
 
 /// A folder that only this run writes into, until it is dropped.
+///
+/// The folder holds the run's description from the beginning, so that the same command goes on with it after
+/// an interruption, and another command is refused. [`Folder::finish`] removes what only served the run.
 #[derive(Debug)]
 pub struct Folder {
     path: PathBuf,

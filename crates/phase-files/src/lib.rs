@@ -48,4 +48,4 @@ pub mod json;
 pub mod measured;
 pub mod run;
 
-pub use error::{FileError, Problem, WriteError, plain_reason};
+pub use error::{FileError, Problem, WriteError};

@@ -1,13 +1,12 @@
 //! Identity of runs: everything that determines the results of a run, as JSON.
 
-use crate::{checksum::sha256_hex, folder::FolderError};
+use crate::checksum::sha256_hex;
 use serde::Serialize;
 use serde_json::{Map, Value};
-use std::path::Path;
 
 /// The value of the field `format` of the description of a run.
-pub const RUN_FORMAT: &str = "phase-run/2";
-/// How the formats of all versions begin.
+pub(crate) const RUN_FORMAT: &str = "phase-run/2";
+/// Beginning of the formats of all versions.
 const ANY_RUN_FORMAT: &str = "phase-run/";
 
 /// The description of a run: what determines its results, its version of the format, and nothing else.
@@ -38,21 +37,6 @@ impl Run {
     #[must_use]
     pub const fn value(&self) -> &Value {
         &self.0
-    }
-
-    /// Checks that the run that a folder holds is this one. `state` is `an unfinished`, `a finished` or `a
-    /// part of a`.
-    ///
-    /// # Errors
-    /// [`FolderError::EarlierRun`] or [`FolderError::OtherRun`].
-    pub fn check(&self, folder: &Path, state: &'static str, held: &Value) -> Result<(), FolderError> {
-        if held["format"] != RUN_FORMAT {
-            return Err(FolderError::EarlierRun(folder.to_owned()));
-        }
-        match self.difference(held) {
-            None => Ok(()),
-            Some(difference) => Err(FolderError::OtherRun { path: folder.to_owned(), state, difference }),
-        }
     }
 
     /// The first difference of another run from this one, in words; `None` if they are the same.
@@ -123,7 +107,8 @@ fn difference(other: &Value, this: &Value) -> Option<String> {
             // The command first: with another command the remainder cannot be compared.
             keys.sort_by_key(|key| *key != "command");
             keys.into_iter().find_map(|key| {
-                let (a, b) = (a.get(key).unwrap_or(&Value::Null), b.get(key).unwrap_or(&Value::Null));
+                let a = a.get(key).unwrap_or(&Value::Null);
+                let b = b.get(key).unwrap_or(&Value::Null);
                 match (a, b) {
                     (Value::Object(_), Value::Object(_)) => {
                         difference(a, b).map(|inner| format!("{key}.{inner}"))

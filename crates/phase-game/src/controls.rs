@@ -2,12 +2,12 @@
 
 use phase_model::Action;
 
-/// What a player does, between two steps.
+/// The keys of a player, between two steps.
 ///
-/// A key that is held acts in every step. One that is pressed and released between two steps acts in the next one, so that a short
-/// press is never lost.
+/// A key that is held acts in every step. One that is pressed and released between two steps acts in the next
+/// one, so that a short press is never lost.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub struct Controls {
+pub(crate) struct Controls {
     held: Action,
     pressed: Option<Action>,
     grab: bool,
@@ -20,9 +20,9 @@ impl Default for Controls {
 }
 
 impl Controls {
-    /// The player begins to do something, or with [`Action::Stop`] ceases to. Grabbing and letting go are not held:
-    /// [`grab`](Self::grab).
-    pub fn hold(&mut self, action: Action) {
+    /// The player begins to do something, or with [`Action::Stop`] ceases to. Grabbing and letting go are not
+    /// held: [`grab`](Self::grab).
+    pub(crate) fn hold(&mut self, action: Action) {
         if !matches!(action, Action::Attach | Action::Detach) {
             self.held = action;
             if action != Action::Stop {
@@ -32,17 +32,17 @@ impl Controls {
     }
 
     /// The player grabs, or lets go.
-    pub const fn grab(&mut self) {
+    pub(crate) const fn grab(&mut self) {
         self.grab = true;
     }
 
     /// Nothing is held any more.
-    pub fn release(&mut self) {
+    pub(crate) fn release(&mut self) {
         *self = Self::default();
     }
 
     /// The action of the next step, for an agent that holds an object or not.
-    pub fn take(&mut self, holds: bool) -> Action {
+    pub(crate) fn take(&mut self, holds: bool) -> Action {
         match (core::mem::take(&mut self.grab), holds) {
             // What was pressed beside it acts in the step after.
             (true, true) => Action::Detach,

@@ -1,16 +1,16 @@
-//! What players are told before a round.
+//! Instructions to players before a round.
 
 use phase_model::{AGENT_COUNT, AgentId, Attitude, Entity, Scene, words::Names};
 use serde::Serialize;
 
-/// What a player is told before a round: both goals, as in the paper (appendix, "Experiment 2").
+/// Instructions to a player before a round: both goals in words, as in the paper (appendix, "Experiment 2").
 #[derive(Clone, PartialEq, Eq, Debug, Serialize)]
 pub struct Instructions {
     /// The colour of the player's agent.
     pub you: &'static str,
-    /// What the player is to do.
+    /// The player's own task, in a sentence.
     pub yours: String,
-    /// What the other agent's player is to do.
+    /// The other agent's task, in a sentence.
     pub theirs: String,
 }
 

@@ -1,4 +1,4 @@
-//! What has to be kept of a game so that it can go on after a crash, one entry a line.
+//! Journals: everything that has to be kept of a game so that it can go on after a crash, one entry a line.
 
 use crate::{GameSettings, message::Ending};
 use phase_model::{AGENT_COUNT, Action, Scene};
@@ -8,7 +8,7 @@ use thiserror::Error;
 /// The value of the field `format` of a journal's first entry.
 pub const FORMAT: &str = "phase-game-journal/1";
 
-/// A scene to be played.
+/// A scene to be played, and the name of the recording that it becomes.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Round {
@@ -67,7 +67,7 @@ pub enum Entry {
     },
     /// A step was made.
     Step {
-        /// What was done.
+        /// The actions of both agents.
         actions: Actions,
     },
     /// A round has ended.

@@ -1,13 +1,15 @@
-//! The two-player game of the paper (appendix, "Experiment 2"): people move the agents of a scene, each of them seeing what its agent
-//! observes.
+//! The two-player game of the paper (appendix, "Experiment 2"): people move the agents of a scene, each of
+//! them seeing what its agent observes.
 //!
-//! A [`Room`] is one game: a practice, then rounds, one scene each. It is told who comes, leaves and presses what ([`FromPlayer`]), and
-//! what time it is, and answers with [`Effect`]s: messages for the players ([`ToPlayer`]), entries of a [`journal`], and
-//! recordings, which are events like all others, with [`Controller::Human`](phase_event::Controller::Human).
+//! A [`Room`] is one game: a practice, then rounds, one scene each. It is told who comes, leaves and presses
+//! what ([`FromPlayer`]), and what time it is, and answers with [`Effect`]s: messages for the players
+//! ([`ToPlayer`]), entries of a [`journal`], and recordings, which are events like all others, with
+//! [`Controller::Human`](phase_event::Controller::Human).
 //!
-//! Key design decision: a room knows no sockets, no files and no clock. It is a state machine, tested without waiting, and the
-//! authority: what players send are keys, and where bodies are is told to them, as far as their agents observe it. The trade-off is that a
-//! key takes effect at the next step, up to a quarter of a second later, as in the paper's game.
+//! Key design decision: a room knows no sockets, no files and no clock. It is a state machine, tested without
+//! waiting, and the authority: what players send are keys, and where bodies are is told to them, as far as
+//! their agents observe it. The trade-off is that a key takes effect at the next step, up to a quarter of a
+//! second later, as in the paper's game.
 //!
 //! One person plays with a mind, which needs no more than to be ready:
 //!
@@ -31,7 +33,8 @@
 //! while steps < 3 {
 //!     now = room.due().unwrap_or(now);
 //!     let effects = room.advance(now);
-//!     steps += effects.iter().filter(|effect| matches!(effect, Effect::Send(_, ToPlayer::Sight(_)))).count();
+//!     let shown = |effect: &&Effect| matches!(effect, Effect::Send(_, ToPlayer::Sight(_)));
+//!     steps += effects.iter().filter(shown).count();
 //! }
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
@@ -39,15 +42,15 @@
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 
-pub mod controls;
-pub mod instructions;
+mod controls;
+mod instructions;
 pub mod journal;
 pub mod message;
 pub mod playlist;
 mod resume;
-pub mod room;
-pub mod settings;
-pub mod sight;
+mod room;
+mod settings;
+mod sight;
 
 pub use instructions::Instructions;
 pub use journal::{Entry, JournalError, Round};

@@ -1,4 +1,4 @@
-//! What players and the room tell each other, as JSON: one object a message, its kind in `type`.
+//! Messages between players and room, as JSON: one object a message, its kind in `type`.
 
 use crate::{Instructions, View};
 use phase_model::{AGENT_COUNT, Action, AgentId};
@@ -68,24 +68,26 @@ impl FromPlayer {
     }
 }
 
-/// A body as it is seen: x, y (u), angle (rad), vx, vy (u/s), angular velocity (rad/s); rounded to thousandths.
+/// A body as it is seen: x, y (u), angle (rad), vx, vy (u/s), angular velocity (rad/s); rounded to
+/// thousandths.
 pub type SeenBody = [f64; 6];
 
-/// What is seen at the end of a step.
+/// Everything that an agent's player sees at the end of a step.
 #[derive(Clone, PartialEq, Debug, Serialize)]
 pub struct Sight {
     /// Steps of the round so far.
     pub step: usize,
-    /// For each frame since the last message, oldest first, agents 0 and 1 and the objects: `[x, y, angle]`, or null if not seen.
+    /// For each frame since the last message, oldest first, agents 0 and 1 and the objects: `[x, y, angle]`,
+    /// or null if not seen.
     pub frames: Vec<Vec<Option<[f64; 3]>>>,
-    /// The same bodies at the end of the step, with velocities.
+    /// The seen bodies at the end of the step, with velocities, in the order of `frames`.
     pub bodies: Vec<Option<SeenBody>>,
     /// By agent, the object that it is seen to hold and the side that holds it.
     pub grips: [Option<SeenGrip>; AGENT_COUNT],
     /// Pairs of bodies that are seen to touch, by the indices of `bodies`.
     pub contacts: Vec<[usize; 2]>,
-    /// The cells that the player's agent sees, as 100 hexadecimal digits: bit k mod 4 of digit k/4 is cell k, row by row from the
-    /// lower left. Absent where players see everything.
+    /// The cells that the player's agent sees, as 100 hexadecimal digits: bit k mod 4 of digit k/4 is cell k,
+    /// row by row from the lower left. Absent where players see everything.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub visible: Option<String>,
 }
@@ -101,7 +103,7 @@ pub struct SeenGrip {
     pub angle: f32,
 }
 
-/// What does not change in a round.
+/// Everything about a round that does not change while it is played.
 #[derive(Clone, PartialEq, Debug, Serialize)]
 pub struct Stage {
     /// The round, 0 for the practice.
@@ -110,7 +112,7 @@ pub struct Stage {
     pub rounds: usize,
     /// Longest duration (steps).
     pub steps: usize,
-    /// What the player is told; absent in the practice, which has no goals.
+    /// Instructions to the player; absent in the practice, which has no goals.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub instructions: Option<Instructions>,
     /// Ends of the inner walls (u).
@@ -134,7 +136,7 @@ pub struct Colours {
     pub landmarks: Vec<String>,
 }
 
-/// What a game is doing.
+/// The activity of a game.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Doing {
@@ -178,7 +180,7 @@ pub enum ToPlayer {
         agent: AgentId,
         /// That agent by its colour, such as `red agent`.
         you: String,
-        /// What players see.
+        /// The part of the world that players see.
         view: View,
         /// Whether the other agent is moved by its mind.
         mind: bool,
@@ -187,13 +189,13 @@ pub enum ToPlayer {
     },
     /// A round.
     Stage(Box<Stage>),
-    /// What goes on.
+    /// The state of the game.
     State {
-        /// What the game is doing.
+        /// Activity of the game.
         doing: Doing,
-        /// Which players are ready.
+        /// By agent, whether its player is ready.
         ready: [bool; AGENT_COUNT],
-        /// Which players are present.
+        /// By agent, whether its player is present.
         present: [bool; AGENT_COUNT],
         /// Time until the first step, of a countdown (ms).
         #[serde(skip_serializing_if = "Option::is_none")]
@@ -202,16 +204,16 @@ pub enum ToPlayer {
         #[serde(skip_serializing_if = "Option::is_none")]
         ending: Option<Ending>,
     },
-    /// What is seen.
+    /// Everything seen at the end of a step.
     Sight(Box<Sight>),
     /// A round is over.
     Result {
-        /// Which goals were achieved at its end.
+        /// By agent, whether its goal was achieved at the end of the round.
         achieved: [bool; AGENT_COUNT],
     },
     /// A message was not understood, or came too often.
     Problem {
-        /// What was wrong, as a sentence.
+        /// The problem, as a sentence.
         text: String,
     },
 }

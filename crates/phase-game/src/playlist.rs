@@ -1,4 +1,4 @@
-//! Which scenes a game plays.
+//! The choice of the scenes of a game.
 
 use phase_model::{
     Scene,
@@ -43,7 +43,7 @@ impl Playlist {
         self.items.is_empty()
     }
 
-    /// How often scenes were given out: source and number.
+    /// Ids of the events that scenes were taken from, with the number of times that each was given out.
     pub fn given(&self) -> impl Iterator<Item = (&str, u32)> {
         self.items.iter().map(|item| item.source.as_str()).zip(self.given.iter().copied())
     }
@@ -55,7 +55,8 @@ impl Playlist {
         }
     }
 
-    /// Different scenes for one game, at most so many: those given least often, ties at random, in random order.
+    /// Different scenes for one game, at most so many: those given least often, ties at random, in random
+    /// order.
     pub fn draw(&mut self, count: usize) -> Vec<Item> {
         let mut random = stream(self.seed, Purpose::Scene, self.games);
         self.games += 1;

@@ -9,9 +9,9 @@ use core::time::Duration;
 use phase_model::{AGENT_COUNT, AgentId};
 
 impl Room {
-    /// The game of a journal, which goes on when its players are back. Minds decide anew, as they did, so that they go on as if nothing
-    /// had happened. What follows at once is the end of a round whose last step is the journal's last entry. `None` if the game is
-    /// over.
+    /// The game of a journal, which goes on when its players are back. Minds decide anew, as they did, so
+    /// that they go on as if nothing had happened. What follows at once is the end of a round whose last step
+    /// is the journal's last entry. `None` if the game is over.
     ///
     /// # Errors
     /// [`JournalError`].

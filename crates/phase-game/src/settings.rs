@@ -1,4 +1,4 @@
-//! What can be chosen about a game.
+//! Settings of a game.
 
 use core::time::Duration;
 use phase_model::AGENT_COUNT;
@@ -8,18 +8,18 @@ use serde::{Deserialize, Serialize};
 /// The time that a step takes on the screen: five frames, 20 a second.
 pub const STEP: Duration = Duration::from_millis(250);
 
-/// What a player sees of the world.
+/// The part of the world that a player sees.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum View {
-    /// What its agent observes (paper, appendix, "Experiment 2").
+    /// Only that which the player's agent observes (paper, appendix, "Experiment 2").
     #[default]
     Own,
     /// Everything.
     All,
 }
 
-/// Who plays an agent.
+/// The player of an agent.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Player {
@@ -32,20 +32,20 @@ pub enum Player {
 /// The settings of a game. Defaults are the paper's where it names them.
 #[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
 pub struct GameSettings {
-    /// Who plays each agent.
+    /// By agent, whether a person or a mind plays it.
     pub players: [Player; AGENT_COUNT],
-    /// What players see.
+    /// The part of the world that players see.
     pub view: View,
-    /// A round also ends when both goals were achieved for this many steps in a row, so that passing over a landmark does not
-    /// count (steps).
+    /// A round also ends when both goals were achieved for this many steps in a row, so that passing over a
+    /// landmark does not count (steps).
     pub achieved_steps: usize,
     /// Longest practice (steps); it ends sooner when all players are ready.
     pub practice_steps: usize,
     /// Time between the last player's being ready and the first step.
     pub countdown: Duration,
-    /// How long a game waits for a player who has left, before it is given up.
+    /// Time for which a game waits for a player who has left, before it is given up.
     pub patience: Duration,
-    /// How long a room waits for its players to come.
+    /// Time for which a room waits for its players to come, before it is given up.
     pub lobby_patience: Duration,
     /// Engine, length of a round and parameters of minds.
     pub simulation: SimulationSettings,

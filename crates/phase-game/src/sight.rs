@@ -1,4 +1,4 @@
-//! What a player is shown: nothing that its agent does not observe.
+//! Pictures for players, with nothing in them that the player's agent does not observe.
 
 use crate::{
     Instructions, View,
@@ -13,9 +13,16 @@ use phase_perception::{
 };
 use phase_render::{Colour, Palette};
 
-/// What the player of an agent sees of the frames since the last message; `states` is not empty.
+/// The message of everything that an agent's player sees of the frames since the last one. `states` are the
+/// states of these frames, at least one.
 #[must_use]
-pub fn sight(physics: &PhysicsConfig, states: &[State], step: usize, agent: AgentId, view: View) -> Sight {
+pub(crate) fn sight(
+    physics: &PhysicsConfig,
+    states: &[State],
+    step: usize,
+    agent: AgentId,
+    view: View,
+) -> Sight {
     let last = states.last().copied().unwrap_or_else(|| State::new(Default::default()));
     let observation = observe(physics, &last, agent);
     let seen = |entity: Entity| view == View::All || observation.observed.contains(entity);
@@ -57,9 +64,9 @@ pub fn sight(physics: &PhysicsConfig, states: &[State], step: usize, agent: Agen
     }
 }
 
-/// What does not change in a round.
+/// The message that opens a round: everything that does not change while it is played.
 #[must_use]
-pub fn stage(
+pub(crate) fn stage(
     scene: &Scene,
     round: usize,
     rounds: usize,

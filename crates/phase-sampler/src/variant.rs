@@ -154,7 +154,7 @@ impl Variant {
 
     /// Whether it belongs to the first edition, whose scenes are drawn without regard to what else may happen in them.
     #[must_use]
-    pub const fn is_first_edition(self) -> bool {
+    pub(crate) const fn is_first_edition(self) -> bool {
         matches!(
             self,
             Self::Lift

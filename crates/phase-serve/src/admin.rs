@@ -1,4 +1,5 @@
-//! What only the person in charge may see and do: `/admin/api/…`, with the token that the program prints when it starts.
+//! The interface of the person in charge: `/admin/api/…`, with the token that the program prints when it
+//! starts.
 
 use crate::{App, error::ApiError, token};
 use axum::{
@@ -41,9 +42,9 @@ async fn status(State(app): State<Arc<App>>, headers: HeaderMap) -> Result<Json<
         .map(|(source, given)| json!({ "source": source, "given": given }))
         .collect();
     let recordings = files(&app.rooms.events())?.len();
-    Ok(Json(
-        json!({ "rooms": rooms, "most_rooms": app.settings.rooms, "scenes": scenes, "recordings": recordings }),
-    ))
+    Ok(Json(json!({
+        "rooms": rooms, "most_rooms": app.settings.rooms, "scenes": scenes, "recordings": recordings,
+    })))
 }
 
 async fn end(

@@ -1,4 +1,4 @@
-//! What can go wrong, for the program and for who asks over HTTP.
+//! Errors, of the program and of requests over HTTP.
 
 use axum::{
     Json,
@@ -42,7 +42,7 @@ pub enum ServeError {
     Study {
         /// The file.
         file: PathBuf,
-        /// What is wrong.
+        /// The rule that the setting breaks.
         rule: String,
     },
     /// The answers of a study cannot be used.
@@ -69,41 +69,41 @@ fn reason(error: &io::Error) -> String {
 /// Why a request was not answered as hoped; one sentence, as `{"error": …}`.
 #[derive(Clone, PartialEq, Eq, Debug, Error)]
 #[error("{sentence}")]
-pub struct ApiError {
+pub(crate) struct ApiError {
     /// The status.
-    pub status: StatusCode,
-    /// What is wrong.
-    pub sentence: String,
+    pub(crate) status: StatusCode,
+    /// The problem, as a sentence for whoever asked.
+    pub(crate) sentence: String,
 }
 
 impl ApiError {
     /// An error of a status.
     #[must_use]
-    pub fn new(status: StatusCode, sentence: impl Into<String>) -> Self {
+    pub(crate) fn new(status: StatusCode, sentence: impl Into<String>) -> Self {
         Self { status, sentence: sentence.into() }
     }
 
-    /// What was sent is wrong.
+    /// An answer with status 400, because of a mistake in the request.
     #[must_use]
-    pub fn bad(sentence: impl Into<String>) -> Self {
+    pub(crate) fn bad(sentence: impl Into<String>) -> Self {
         Self::new(StatusCode::BAD_REQUEST, sentence)
     }
 
     /// Nothing is there.
     #[must_use]
-    pub fn missing() -> Self {
+    pub(crate) fn missing() -> Self {
         Self::new(StatusCode::NOT_FOUND, "there is nothing of this name")
     }
 
     /// Too much is going on.
     #[must_use]
-    pub fn busy(sentence: impl Into<String>) -> Self {
+    pub(crate) fn busy(sentence: impl Into<String>) -> Self {
         Self::new(StatusCode::SERVICE_UNAVAILABLE, sentence)
     }
 
     /// The server failed; the reason goes to its log.
     #[must_use]
-    pub fn failed(reason: &dyn std::error::Error) -> Self {
+    pub(crate) fn failed(reason: &dyn std::error::Error) -> Self {
         crate::log::failure(reason);
         Self::new(StatusCode::INTERNAL_SERVER_ERROR, "the server failed; its log says why")
     }

@@ -1,4 +1,4 @@
-//! What every answer carries, and who may ask: the security of the pages.
+//! Security of the pages: headers of every answer, and checks of the origin of requests.
 
 use crate::{App, error::ApiError};
 use axum::{
@@ -20,7 +20,8 @@ const POLICY: &str = "default-src 'none'; script-src 'self'; style-src 'self'; i
 const PLAYGROUND_POLICY: &str = "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; worker-src 'self'; style-src 'self'; \
                                  img-src 'self' data: blob:; connect-src 'self'; form-action 'none'; base-uri 'none'; frame-ancestors 'none'";
 
-/// Refuses requests that come too often, or through a name that is not the server's; adds what protects the pages.
+/// Refuses requests that come too often, or through a name that is not the server's; adds what protects the
+/// pages.
 pub(crate) async fn guard(
     State(app): State<Arc<App>>,
     ConnectInfo(peer): ConnectInfo<SocketAddr>,
@@ -33,7 +34,8 @@ pub(crate) async fn guard(
     let mut response = if !app.requests.take(address, Instant::now()) {
         ApiError::new(StatusCode::TOO_MANY_REQUESTS, "too many requests; wait a moment").into_response()
     } else if !app.settings.is_known_host(request.headers()) {
-        // Otherwise a page elsewhere could point its own name at this server and read what it answers (DNS rebinding).
+        // Otherwise a page elsewhere could point its own name at this server and read what it answers (DNS
+        // rebinding).
         ApiError::new(StatusCode::MISDIRECTED_REQUEST, "this server does not have this name").into_response()
     } else {
         next.run(request).await
@@ -61,7 +63,8 @@ pub(crate) async fn guard(
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Client(pub(crate) IpAddr);
 
-/// Behind a proxy, the address that the proxy saw: the last one of the list, since those before it are told by the client.
+/// Behind a proxy, the address that the proxy saw: the last one of the list, since those before it are told
+/// by the client.
 fn client(app: &App, peer: SocketAddr, headers: &HeaderMap) -> IpAddr {
     let forwarded = || {
         let value = headers.get_all("x-forwarded-for").iter().next_back()?.to_str().ok()?;
@@ -75,8 +78,8 @@ pub(crate) fn host(headers: &HeaderMap) -> Option<Authority> {
     headers.get(header::HOST)?.to_str().ok()?.parse().ok()
 }
 
-/// Whether a page of this server opens a socket: browsers send their page's origin, and let any page open sockets anywhere. Programs
-/// send none.
+/// Whether a page of this server opens a socket: browsers send their page's origin, and let any page open
+/// sockets anywhere. Programs send none.
 pub(crate) fn same_origin(headers: &HeaderMap) -> bool {
     let Some(origin) = headers.get(header::ORIGIN) else { return true };
     let origin = origin.to_str().ok().and_then(|origin| origin.split_once("://"));

@@ -1,12 +1,14 @@
-//! The server of PHASE: the [playground](phase_web::playground), the two-player game of `phase-game`, the rating studies of `phase-study`,
-//! and the admin page.
+//! The server of PHASE: the [playground](phase_web::playground), the two-player game of `phase-game`, the
+//! rating studies of `phase-study`, and the admin page.
 //!
-//! [`Server::bind`] listens, [`Server::run`] serves until it is told to stop. What is kept is in one folder: `rooms/`, a journal for each
-//! game, `events/`, the recordings, and `studies/`, the answers of raters. A server that was killed goes on with its games when it is started again.
+//! [`Server::bind`] listens, [`Server::run`] serves until it is told to stop. What is kept is in one folder:
+//! `rooms/`, a journal for each game, `events/`, the recordings, and `studies/`, the answers of raters. A
+//! server that was killed goes on with its games when it is started again.
 //!
-//! Key design decision: the server is a thin layer over state machines that know no sockets. Each game is one task, which owns its room
-//! and is told everything through one queue, so nothing is shared and nothing is locked while a game steps. The trade-off is that all
-//! players of a game wait while its mind thinks; they do so between steps, when there is nothing else to do.
+//! Key design decision: the server is a thin layer over state machines that know no sockets. Each game is one
+//! task, which owns its room and is told everything through one queue, so nothing is shared and nothing is
+//! locked while a game steps. The trade-off is that all players of a game wait while its mind thinks; they do
+//! so between steps, when there is nothing else to do.
 //!
 //! ```no_run
 //! use phase_game::{GameSettings, playlist::Item};
@@ -37,15 +39,15 @@
 
 mod admin;
 mod assets;
-pub mod error;
+mod error;
 mod headers;
-pub mod limits;
+mod limits;
 mod log;
 mod rooms;
-pub mod server;
-pub mod settings;
+mod server;
+mod settings;
 mod study;
-pub mod token;
+mod token;
 
 pub use error::ServeError;
 pub use server::Server;
@@ -58,15 +60,15 @@ use std::sync::Arc;
 use study::Studies;
 use tokio::sync::Semaphore;
 
-/// What all requests share.
+/// The state that all requests share.
 pub(crate) struct App {
     settings: ServerSettings,
-    /// What is kept of the admin token.
+    /// The digest of the admin token, see [`token::kept`].
     admin: String,
     assets: Assets,
     rooms: Arc<Rooms>,
-    /// Sockets that may be open at the same time: some for each player, since a page that reconnects may be faster than the end of its
-    /// last connection.
+    /// Sockets that may be open at the same time: some for each player, since a page that reconnects may be
+    /// faster than the end of its last connection.
     sockets: Arc<Semaphore>,
     /// Requests of an address.
     requests: PerAddress,

@@ -1,4 +1,4 @@
-//! How often somebody may ask: token buckets.
+//! Limits of the rate of requests: token buckets.
 
 use std::{
     collections::HashMap,
@@ -12,7 +12,7 @@ const REMEMBERED: usize = 10_000;
 
 /// A bucket of permissions that fills at a steady rate.
 #[derive(Clone, Copy, Debug)]
-pub struct Bucket {
+pub(crate) struct Bucket {
     level: f64,
     filled: Instant,
     rate: f64,
@@ -22,12 +22,12 @@ pub struct Bucket {
 impl Bucket {
     /// A full bucket: so many at once, and then so many a second.
     #[must_use]
-    pub const fn new(size: f64, rate: f64, now: Instant) -> Self {
+    pub(crate) const fn new(size: f64, rate: f64, now: Instant) -> Self {
         Self { level: size, filled: now, rate, size }
     }
 
     /// Takes one, if there is one.
-    pub fn take(&mut self, now: Instant) -> bool {
+    pub(crate) fn take(&mut self, now: Instant) -> bool {
         let passed = now.saturating_duration_since(self.filled).as_secs_f64();
         self.level = (self.level + passed * self.rate).min(self.size);
         self.filled = now;
@@ -46,7 +46,7 @@ impl Bucket {
 
 /// A bucket for each address.
 #[derive(Debug)]
-pub struct PerAddress {
+pub(crate) struct PerAddress {
     buckets: Mutex<HashMap<IpAddr, Bucket>>,
     size: f64,
     rate: f64,
@@ -55,12 +55,12 @@ pub struct PerAddress {
 impl PerAddress {
     /// So many at once, and then so many a second.
     #[must_use]
-    pub fn new(size: f64, rate: f64) -> Self {
+    pub(crate) fn new(size: f64, rate: f64) -> Self {
         Self { buckets: Mutex::default(), size, rate }
     }
 
     /// Whether somebody may ask now.
-    pub fn take(&self, address: IpAddr, now: Instant) -> bool {
+    pub(crate) fn take(&self, address: IpAddr, now: Instant) -> bool {
         let mut buckets = self.buckets.lock().unwrap_or_else(PoisonError::into_inner);
         if buckets.len() >= REMEMBERED {
             buckets.retain(|_, bucket| !bucket.is_full(now));

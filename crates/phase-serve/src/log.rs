@@ -1,4 +1,5 @@
-//! What the server says while it runs: failures of its own, on stderr, one line each. Who plays or rates what is nobody's business.
+//! The log: failures of the server's own, on stderr, one line each. It does not tell who plays or rates what,
+//! since that is nobody's business.
 
 use std::{error::Error, io::Write as _, iter::successors};
 

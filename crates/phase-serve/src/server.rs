@@ -34,7 +34,7 @@ const OPENINGS: (f64, f64) = (30.0, 0.5);
 const JOININGS: (f64, f64) = (300.0, 5.0);
 /// Sockets for each room: two for each player.
 const SOCKETS: usize = 4;
-/// How long open connections may take to end when the server stops.
+/// Time in which open connections have to end when the server stops.
 const PATIENCE: Duration = Duration::from_secs(5);
 
 /// A server that listens.
@@ -56,8 +56,9 @@ impl core::fmt::Debug for Server {
 }
 
 impl Server {
-    /// Listens, and takes up the games in the settings' folder. `practice` comes before the rounds of each new game, which are drawn
-    /// from `scenes`; `wasm` is the playground's WebAssembly, in the order of [`phase_web::WASM`].
+    /// Listens, and takes up the games in the settings' folder. `practice` comes before the rounds of each
+    /// new game, which are drawn from `scenes`; `wasm` is the playground's WebAssembly, in the order of
+    /// [`phase_web::WASM`].
     ///
     /// # Errors
     /// [`ServeError`].
@@ -94,10 +95,12 @@ impl Server {
         Ok(Self { app, runtime, listener, address, admin, stop, lock })
     }
 
-    /// Opens rating studies, each a file of the format `phase-study/1`; their answers are in `studies/` in the settings' folder.
+    /// Opens rating studies, each a file of the format `phase-study/1`; their answers are in `studies/` in
+    /// the settings' folder.
     ///
     /// # Errors
-    /// [`ServeError`] if a configuration, its videos or its answers cannot be used, or two studies have the same name.
+    /// [`ServeError`] if a configuration, its videos or its answers cannot be used, or two studies have the
+    /// same name.
     pub fn open_studies(&mut self, configurations: &[PathBuf]) -> Result<(), ServeError> {
         self.app.studies = Studies::open(configurations, &self.app.settings.folder.join("studies"))?;
         Ok(())
@@ -108,13 +111,13 @@ impl Server {
         self.app.studies.names()
     }
 
-    /// Where it listens.
+    /// Address at which the server listens.
     #[must_use]
     pub const fn address(&self) -> SocketAddr {
         self.address
     }
 
-    /// What the person in charge has to know.
+    /// The token of the person in charge, which `/admin/` asks for.
     #[must_use]
     pub fn admin_token(&self) -> &str {
         &self.admin
@@ -139,8 +142,9 @@ impl Server {
                 let _ = stopped.changed().await;
                 tokio::time::sleep(PATIENCE).await;
             };
+            let serving = axum::serve(listener, service).with_graceful_shutdown(stopping);
             tokio::select! {
-                served = async { axum::serve(listener, service).with_graceful_shutdown(stopping).await } => served,
+                served = async { serving.await } => served,
                 () = late => Ok(()),
             }
         });

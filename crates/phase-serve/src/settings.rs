@@ -1,4 +1,4 @@
-//! What can be chosen about a server.
+//! Settings of a server.
 
 use crate::headers::host;
 use axum::http::HeaderMap;
@@ -8,10 +8,10 @@ use std::{net::SocketAddr, path::PathBuf};
 /// The settings of a server.
 #[derive(Clone, Debug)]
 pub struct ServerSettings {
-    /// Where it listens.
+    /// Address at which the server listens; with port 0 the system chooses one.
     pub listen: SocketAddr,
-    /// Its name for others, where there is a proxy or a public address: a host, with the port if it is not the usual one. Requests by
-    /// another name are refused.
+    /// Its name for others, where there is a proxy or a public address: a host, with the port if it is not
+    /// the usual one. Requests by another name are refused.
     pub host: Option<String>,
     /// Whether a proxy in front of it tells who asks (`X-Forwarded-For`).
     pub behind_proxy: bool,
@@ -19,8 +19,8 @@ pub struct ServerSettings {
     pub folder: PathBuf,
     /// Games at the same time, at most.
     pub rooms: usize,
-    /// Of them games in which a mind plays, at most: minds need most of a processor's time, and a server that has too little is late with
-    /// every step.
+    /// Of them games in which a mind plays, at most: minds need most of a processor's time, and a server that
+    /// has too little is late with every step.
     pub mind_rooms: usize,
     /// Whether anybody may open a room, or only who has the admin token.
     pub open: bool,

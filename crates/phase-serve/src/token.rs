@@ -6,7 +6,7 @@ use sha2::{Digest as _, Sha256};
 ///
 /// # Errors
 /// If the operating system has no random numbers.
-pub fn new() -> Result<String, getrandom::Error> {
+pub(crate) fn new() -> Result<String, getrandom::Error> {
     let mut bytes = [0; 16];
     getrandom::fill(&mut bytes)?;
     Ok(hex(&bytes))
@@ -16,7 +16,7 @@ pub fn new() -> Result<String, getrandom::Error> {
 ///
 /// # Errors
 /// If the operating system has no random numbers.
-pub fn short() -> Result<String, getrandom::Error> {
+pub(crate) fn short() -> Result<String, getrandom::Error> {
     let mut bytes = [0; 4];
     getrandom::fill(&mut bytes)?;
     Ok(hex(&bytes))
@@ -26,16 +26,17 @@ pub fn short() -> Result<String, getrandom::Error> {
 ///
 /// # Errors
 /// If the operating system has no random numbers.
-pub fn coin() -> Result<bool, getrandom::Error> {
+pub(crate) fn coin() -> Result<bool, getrandom::Error> {
     let mut byte = [0];
     getrandom::fill(&mut byte)?;
     Ok(byte[0] & 1 == 1)
 }
 
-/// What is kept of a token, so that whoever reads the server's files or memory cannot use it: its SHA-256. Tokens are random, so neither
-/// salt nor a slow hash is needed, and a lookup by it says nothing by its duration.
+/// The SHA-256 of a token, which is kept in its place so that whoever reads the server's files or memory
+/// cannot use it. Tokens are random, so neither salt nor a slow hash is needed, and a lookup by it says
+/// nothing by its duration.
 #[must_use]
-pub fn kept(token: &str) -> String {
+pub(crate) fn kept(token: &str) -> String {
     hex(&Sha256::digest(token.as_bytes()))
 }
 

@@ -225,7 +225,7 @@ fn damaged_journals_do_no_harm() {
 
 /// One player against a mind, which sees everything.
 #[test]
-fn minds_play_along() {
+fn a_mind_plays_the_agent_that_no_person_plays() {
     let mut given = settings();
     given.game = GameSettings { view: View::Own, ..given.game };
     let server = Running::start(given);

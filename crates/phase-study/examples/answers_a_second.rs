@@ -21,7 +21,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     let stimuli: Vec<_> =
         (0..100).map(|k| json!({"id": k.to_string(), "video": format!("{k}.mp4")})).collect();
     let config = json!({
-        "format": "phase-study/1", "name": "bench", "title": "Bench", "form": "goals", "consent": ["?"], "instructions": ["!"],
+        "format": "phase-study/1", "name": "bench", "title": "Bench", "form": "goals",
+        "consent": ["?"], "instructions": ["!"],
         "stimuli": stimuli, "raters_per_video": RATERS, "videos_per_rater": VIDEOS, "raters": RATERS,
     });
     let forms = Forms::included()?;

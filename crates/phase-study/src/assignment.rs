@@ -1,10 +1,10 @@
-//! Who rates what: the least rated videos first, ties at random, in random order.
+//! Assignment of videos to raters: the least rated videos first, ties at random, in random order.
 
 use crate::config::StudyConfig;
 use phase_model::random::{Purpose, stream};
 use rand::{Rng, RngExt};
 
-/// What a rater is shown.
+/// One thing that a rater is shown.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 pub enum Shown {
     /// The stimulus of this index.
@@ -13,12 +13,13 @@ pub enum Shown {
     CatchTrial(usize),
 }
 
-/// The trials of a rater in order: [`StudyConfig::videos_per_rater`] videos of one group that the fewest raters have (`load`, by
-/// index of the stimulus), at random where several have as few, and all catch trials, in random order. Fewer videos where too
-/// few of the group have less than [`StudyConfig::raters_per_video_at_most`]; `None` where no video of any group has.
+/// The trials of a rater in order: [`StudyConfig::videos_per_rater`] videos of one group that the fewest
+/// raters have (`load`, by index of the stimulus), at random where several have as few, and all catch trials,
+/// in random order. Fewer videos where too few of the group have less than
+/// [`StudyConfig::raters_per_video_at_most`]; `None` where no video of any group has.
 ///
-/// The configuration's seed and the rater's number decide what is random. Of several groups it is the one that lacks most
-/// judgements. `load` must have a number for each stimulus.
+/// The configuration's seed and the rater's number decide what is random. Of several groups it is the one
+/// that lacks most judgements. `load` must have a number for each stimulus.
 #[must_use]
 pub fn assign(config: &StudyConfig, load: &[u32], rater: u64) -> Option<Vec<Shown>> {
     let mut random = stream(config.seed, Purpose::Assignment, rater);
@@ -27,7 +28,8 @@ pub fn assign(config: &StudyConfig, load: &[u32], rater: u64) -> Option<Vec<Show
     let lacks = |bound: u32| {
         move |group: &Vec<usize>| group.iter().map(|&k| u64::from(bound.saturating_sub(load[k]))).sum::<u64>()
     };
-    let (wanted, room) = (lacks(config.raters_per_video), lacks(config.raters_per_video_at_most));
+    let wanted = lacks(config.raters_per_video);
+    let room = lacks(config.raters_per_video_at_most);
     // The first of the greatest, for the groups are in random order.
     let group = groups.into_iter().rev().max_by_key(|group| (wanted(group), room(group)))?;
     let mut open: Vec<usize> =

@@ -1,4 +1,5 @@
-//! What raters are asked about a video: the three forms, from the data that all pages share (`data/forms.json`).
+//! The three forms, each a list of questions about a video, from the data that all pages share
+//! (`data/forms.json`).
 
 use crate::question::{Choice, Kind, Question};
 use phase_model::json::{Field, FieldError, JsonError, check_format, parse_text};
@@ -8,7 +9,7 @@ use thiserror::Error;
 /// The value of the field `format` of forms.
 pub const FORMS_FORMAT: &str = "phase-forms/1";
 /// Most objects that a video shows.
-pub const MOST_OBJECTS: u8 = 2;
+pub(crate) const MOST_OBJECTS: u8 = 2;
 
 /// Name of the question about types of interaction.
 pub const INTERACTIONS: &str = "interactions";
@@ -17,14 +18,15 @@ pub const GOALS: [&str; 2] = ["goal_0", "goal_1"];
 /// Name of the question about the relation.
 pub const RELATION: &str = "relation";
 /// Name of the question about human-likeness.
-pub const HUMAN_LIKENESS: &str = "human_likeness";
+pub(crate) const HUMAN_LIKENESS: &str = "human_likeness";
 
 /// A form.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub enum Form {
-    /// Which types of interaction the video shows (the paper's Experiment 1).
+    /// The types of interaction that the video shows (the paper's Experiment 1).
     Interactions,
-    /// The goals of both agents, their relation, and how likely people would behave like this (its Experiment 2).
+    /// The goals of both agents, their relation, and how likely people would behave like this (its Experiment
+    /// 2).
     Goals,
     /// Whether the two are friendly, neutral or adversarial (Malik and Isik 2023).
     Relation,
@@ -99,7 +101,8 @@ impl Forms {
         check_format(&document, FORMS_FORMAT)?;
         let root = Field::root(&document);
         root.only(&["format", "choices", "forms"])?;
-        let (choices, forms) = (root.required("choices")?, root.required("forms")?);
+        let choices = root.required("choices")?;
+        let forms = root.required("forms")?;
         forms.only(&Form::ALL.map(Form::name))?;
         let mut entries = BTreeMap::new();
         for form in Form::ALL {
@@ -110,7 +113,7 @@ impl Forms {
         Ok(Self { entries })
     }
 
-    /// The questions of a form about a video with so many objects, 0 to [`MOST_OBJECTS`], in order.
+    /// The questions of a form about a video with so many objects, 0 to 2, in order.
     #[must_use]
     pub fn questions(&self, form: Form, objects: u8) -> Vec<Question> {
         let ask = |entry: &Entry| {

@@ -1,23 +1,27 @@
 //! Rating studies: people watch videos of social events and answer questions about them.
 //!
-//! - [`config`] is a study (`phase-study/1`): texts, videos, how many raters; [`design`] makes the paper's experiments from videos.
+//! - [`config`] is a study (`phase-study/1`): texts, videos, how many raters; [`design`] makes the paper's
+//!   experiments from videos.
 //! - [`forms`] are the three sets of questions, [`question`] what a question and an answer are.
-//! - [`study`] leads raters from consent to the last answer; [`assignment`] decides who sees what, [`store`] keeps the answers,
-//!   [`record`] tells which raters count.
-//! - [`export`] makes a Psych-DS dataset and `phase-ratings/1` of the answers, [`analysis`] agreement, accuracies, human-likeness and
-//!   the interactions that at least half of the raters see.
+//! - [`study`] leads raters from consent to the last answer; [`assignment`] decides who sees what, [`store`]
+//!   keeps the answers, [`record`] tells which raters count.
+//! - [`export`] makes a Psych-DS dataset and `phase-ratings/1` of the answers, [`analysis`] agreement,
+//!   accuracies, human-likeness and the interactions that at least half of the raters see.
 //!
-//! Key design decision: what a rater sees next follows from what is stored of it, and every step is one transaction in one SQLite
-//! file that is only added to. So a server has no state of its own: it can be killed at any moment, and a rater who comes back goes on
-//! where it was. Clock and randomness are arguments, HTTP is elsewhere. The trade-off is that every answer waits for the disk, and
-//! that where videos are assigned all raters are read.
+//! Key design decision: what a rater sees next follows from what is stored of it, and every step is one
+//! transaction in one SQLite file that is only added to. So a server has no state of its own: it can be
+//! killed at any moment, and a rater who comes back goes on where it was. Clock and randomness are arguments,
+//! HTTP is elsewhere. The trade-off is that every answer waits for the disk, and that where videos are
+//! assigned all raters are read.
 //!
 //! Feature `store` (on by default) has [`store`] and [`study`], and builds SQLite from its source.
 //!
 //! A study of two videos, each wanted by one rater, who answers both:
 //!
 //! ```
-//! use phase_study::{analysis::Analysis, config::StudyConfig, forms::Forms, store::Store, study::{Stage, Study, Token}};
+//! use phase_study::analysis::Analysis;
+//! use phase_study::study::{Stage, Study, Token};
+//! use phase_study::{config::StudyConfig, forms::Forms, store::Store};
 //! use serde_json::json;
 //! use std::collections::BTreeMap;
 //!
@@ -38,7 +42,8 @@
 //! study.consent(&token, true, 1000)?;
 //! study.instructed(&token, 2000)?;
 //! for trial in 1..=2 {
-//!     let answer = json!({"trial": trial, "answer": {"relation": "friendly"}, "response_time": 900, "plays": 1});
+//!     let answer = json!({"trial": trial, "answer": {"relation": "friendly"}, "response_time": 900,
+//!         "plays": 1});
 //!     study.answer(&token, &answer, 3000)?;
 //! }
 //! assert_eq!(study.stage(&token)?, Stage::Done { code: Some("C0DE".into()), url: None });

@@ -8,13 +8,13 @@ use std::collections::{BTreeMap, BTreeSet};
 /// One of the answers that a question offers.
 #[derive(Clone, PartialEq, Eq, Debug, Serialize)]
 pub struct Choice {
-    /// What is stored.
+    /// The text that is stored.
     pub value: String,
-    /// What is shown.
+    /// The text that is shown.
     pub text: String,
 }
 
-/// What kind of answer a question wants.
+/// The kind of answer that a question wants.
 #[derive(Clone, PartialEq, Eq, Debug, Serialize)]
 #[serde(tag = "kind", rename_all = "lowercase")]
 pub enum Kind {
@@ -70,24 +70,18 @@ impl Kind {
     }
 }
 
-/// A question. As JSON it is what the page shows: `name`, `text`, `kind` with its members, and `optional` if it is.
+/// A question. As JSON it is what the page shows: `name`, `text`, `kind` with its members, and `optional`.
 #[derive(Clone, PartialEq, Eq, Debug, Serialize)]
 pub struct Question {
     /// The member of the answer.
     pub name: String,
-    /// What is asked.
+    /// The question, as it is shown.
     pub text: String,
-    /// What kind of answer it wants.
+    /// The kind of answer that it wants.
     #[serde(flatten)]
     pub kind: Kind,
     /// Whether it may be left out.
-    #[serde(skip_serializing_if = "is_false")]
     pub optional: bool,
-}
-
-#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde passes a reference")]
-const fn is_false(value: &bool) -> bool {
-    !*value
 }
 
 /// The answer to one question.

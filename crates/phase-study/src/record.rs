@@ -1,4 +1,4 @@
-//! What is stored of raters, and whether they count.
+//! Records of raters, and the rule by which they count.
 
 use crate::{
     config::{CatchTrial, StudyConfig},
@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 /// A moment: milliseconds since 1970-01-01 UTC.
 pub type Millis = i64;
 
-/// How a rater left.
+/// The way in which a rater left.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Departure {
     /// It did not agree to take part.
@@ -21,13 +21,13 @@ pub enum Departure {
 /// An answer to a trial.
 #[derive(Clone, PartialEq, Debug)]
 pub struct GivenAnswer {
-    /// When it was stored.
+    /// Time at which the answer was stored.
     pub at: Millis,
     /// The answer.
     pub answer: Responses,
     /// Time from the first sight of the trial until the answer, as the rater's browser measured it (ms).
     pub response_time: i64,
-    /// How often the video was played to its end.
+    /// Number of times that the video was played to its end.
     pub plays: i64,
 }
 
@@ -47,23 +47,23 @@ pub struct Trial {
 pub struct Rater {
     /// Its number, from 1, in the order in which raters came.
     pub number: u64,
-    /// When it came.
+    /// Time at which the rater came.
     pub joined: Millis,
     /// Members of the address with which it came; empty after it left.
     pub parameters: BTreeMap<String, String>,
-    /// How it left, if it did.
+    /// The way in which the rater left, if it did.
     pub departure: Option<Departure>,
-    /// When it agreed to take part.
+    /// Time at which the rater agreed to take part.
     pub consented: Option<Millis>,
-    /// What it said of itself, and when.
+    /// Time and answers to the questions about the rater.
     pub demographics: Option<(Millis, Responses)>,
-    /// When it had read the instructions.
+    /// Time at which the rater had read the instructions.
     pub instructed: Option<Millis>,
     /// Its trials in order; empty before it agreed.
     pub trials: Vec<Trial>,
 }
 
-/// How far a rater is.
+/// The progress of a rater.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Standing {
     /// It has not answered everything, and has not left.
@@ -93,7 +93,7 @@ impl Standing {
 }
 
 impl Rater {
-    /// How far it is.
+    /// The rater's progress.
     #[must_use]
     pub fn standing(&self, config: &StudyConfig) -> Standing {
         match self.departure {
@@ -108,16 +108,16 @@ impl Rater {
         if failures > config.catch_failures_allowed as usize { Standing::Failed } else { Standing::Complete }
     }
 
-    /// How many catch trials it answered wrongly.
+    /// Number of catch trials that the rater answered wrongly.
     #[must_use]
     pub fn catch_failures(&self, config: &StudyConfig) -> usize {
         let wrong = |trial: &&Trial| matches!(trial.passed(config), Some(false));
         self.trials.iter().filter(wrong).count()
     }
 
-    /// When it last gave a sign.
+    /// Time of the rater's last sign.
     #[must_use]
-    pub fn last_seen(&self) -> Millis {
+    pub(crate) fn last_seen(&self) -> Millis {
         let answers = self.trials.iter().filter_map(|trial| trial.given.as_ref()).map(|given| given.at);
         let pages = [self.consented, self.demographics.as_ref().map(|(at, _)| *at), self.instructed];
         answers.chain(pages.into_iter().flatten()).fold(self.joined, Millis::max)
@@ -141,10 +141,10 @@ impl Trial {
 }
 
 impl CatchTrial {
-    /// Whether an answer is right: of a question with one answer it is among those expected, of one with several all that are
-    /// expected are among it.
+    /// Whether an answer is right: of a question with one answer it is among those expected, of one with
+    /// several all that are expected are among it.
     #[must_use]
-    pub fn passed_by(&self, answer: &Responses) -> bool {
+    pub(crate) fn passed_by(&self, answer: &Responses) -> bool {
         self.expected.iter().all(|(question, expected)| match answer.get(question) {
             Some(Given::Many(several)) => expected.is_subset(several),
             Some(given) => expected.iter().any(|choice| given.has(choice)),
@@ -153,8 +153,8 @@ impl CatchTrial {
     }
 }
 
-/// How many raters each stimulus (by index) has: those that count, and those that gave a sign since `since` and may yet.
-/// Also how many such raters there are who have trials.
+/// Number of raters of each stimulus, by its index: those that count, and those that gave a sign since
+/// `since` and may yet. Also how many such raters there are who have trials.
 #[must_use]
 pub fn load(config: &StudyConfig, raters: &[Rater], since: Millis) -> (Vec<u32>, u32) {
     let indices: BTreeMap<&str, usize> =

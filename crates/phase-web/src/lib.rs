@@ -1,9 +1,10 @@
 //! The pages of PHASE, as files: the playground, which any web server can host, and those of the server.
 //!
-//! Key design decision: pages are plain HTML, CSS and JavaScript modules, without a bundler and without other people's scripts, so that
-//! what is read here is what browsers run. The WebAssembly that they call is built from `phase-playground`, by another target of the
-//! compiler, so it is not always there: a release of `phase` includes it (`build.rs`), `cargo xtask playground` builds it.
-//! The trade-off is a command that has to say so where it is missing.
+//! Key design decision: pages are plain HTML, CSS and JavaScript modules, without a bundler and without other
+//! people's scripts, so that what is read here is what browsers run. The WebAssembly that they call is built
+//! from `phase-playground`, by another target of the compiler, so it is not always there: a release of
+//! `phase` includes it (`build.rs`), `cargo xtask playground` builds it. The trade-off is a command that has
+//! to say so where it is missing.
 //!
 //! ```
 //! let wasm = [&b"export default"[..], b"\0asm"];
@@ -27,7 +28,7 @@ pub struct File<'a> {
 /// Names of the two files that the tool `wasm-bindgen` makes.
 pub const WASM: [&str; 2] = ["phase.js", "phase_bg.wasm"];
 
-/// What this build includes of them.
+/// Contents of these files, if this build includes them.
 const INCLUDED: Option<[&[u8]; 2]> = include!(concat!(env!("OUT_DIR"), "/wasm.rs"));
 
 const PLAYGROUND: [(&str, &[u8]); 9] = [
@@ -42,7 +43,8 @@ const PLAYGROUND: [(&str, &[u8]); 9] = [
     ("observer.js", include_bytes!("../pages/playground/observer.js")),
 ];
 
-/// What a server has beside the playground: the first page, the game, the admin page, what the pages of all studies share.
+/// Files of a server beside the playground: the first page, the game, the admin page, and everything that the
+/// pages of all studies share.
 const SITE: [(&str, &[u8]); 15] = [
     ("index.html", include_bytes!("../pages/home/index.html")),
     ("home.js", include_bytes!("../pages/home/home.js")),

@@ -10,8 +10,8 @@ use parquet::{
 };
 use std::sync::Arc;
 
-/// What one column holds, in Parquet's own form: every leaf, and a level of each kind for every leaf, empty
-/// list and missing value.
+/// The values of one column, in Parquet's own form: every leaf, and a level of each kind for every leaf,
+/// empty list and missing value.
 #[derive(Debug)]
 pub(super) struct Leaves<T: DataType> {
     pub(super) values: Vec<T::T>,

@@ -11,7 +11,7 @@ use parquet::{
 };
 use std::sync::Arc;
 
-/// What a column holds, for people.
+/// Documentation of a column, for people.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Description {
     /// Name.
@@ -22,12 +22,12 @@ pub struct Description {
     pub kind: &'static str,
     /// Unit, or empty.
     pub unit: &'static str,
-    /// What it is, with its range.
+    /// Meaning of the values, with their range.
     pub what: &'static str,
 }
 
 impl Description {
-    /// What it is, with shape and unit, on one line.
+    /// Meaning, shape and unit on one line.
     #[must_use]
     pub fn sentence(&self) -> String {
         let unit = if self.unit.is_empty() { String::new() } else { format!(" ({})", self.unit) };
@@ -38,7 +38,7 @@ impl Description {
 
 /// A column of any type, with the values of events that are not written yet.
 pub(super) trait Column {
-    /// What it is.
+    /// Documentation of the column.
     fn description(&self) -> Description;
     /// Its schema.
     fn schema(&self) -> Result<Type>;

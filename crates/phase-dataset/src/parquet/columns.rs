@@ -1,4 +1,4 @@
-//! Which columns there are.
+//! The columns of the Parquet files, in their order.
 
 use super::{
     column::{Column, Description, TypedColumn},
@@ -6,7 +6,7 @@ use super::{
 };
 use phase_model::{LandmarkId, arena};
 
-/// What every column holds, in the files' order.
+/// Documentation of every column, in the files' order.
 #[must_use]
 pub fn descriptions() -> Vec<Description> {
     all().iter().map(|column| column.description()).collect()

@@ -41,7 +41,7 @@ pub fn compare(folder: &Path, part: &ParquetFile, events: &[&EventEntry]) -> Res
     if is_same { Ok(()) } else { Err(differs()) }
 }
 
-/// What is written here is compared with a file, from its beginning.
+/// A writer that compares the bytes it is given with a file, from the file's beginning.
 struct Comparison {
     file: BufReader<File>,
     buffer: Vec<u8>,

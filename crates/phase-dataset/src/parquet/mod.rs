@@ -41,9 +41,9 @@ const EVENTS_PER_GROUP: usize = 50;
 pub struct ParquetFile {
     /// Path relative to the dataset's folder, with `/`, such as `data/train-00000-of-00001.parquet`.
     pub path: String,
-    /// Which part of the dataset.
+    /// The part of the dataset that the file holds.
     pub split: Split,
-    /// Which file of that part, from 0.
+    /// Number of the file within its part, from 0.
     pub number: usize,
     /// Number of events in it, at least 1 and at most [`EVENTS_PER_FILE`].
     pub events: usize,

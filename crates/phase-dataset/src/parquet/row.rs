@@ -56,7 +56,7 @@ impl Row<'_> {
         self.event().frames().map(rows).collect()
     }
 
-    /// What each agent holds, by frame.
+    /// By frame, the object that each agent holds.
     pub(super) fn held(&self) -> Vec<Vec<Option<i32>>> {
         let held = |state: &State| {
             AgentId::ALL

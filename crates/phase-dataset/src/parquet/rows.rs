@@ -66,7 +66,7 @@ impl<W: Write + Send> Rows<W> {
         self.left
     }
 
-    /// What the rows are written to.
+    /// The writer that the rows go to.
     pub(super) fn out(&self) -> &W {
         self.writer.inner()
     }

@@ -16,7 +16,7 @@ pub struct EventComparison {
     /// The simulated event's id.
     #[serde(deserialize_with = "ids::deserialize")]
     pub id: String,
-    /// Which recording it started from, and with what seed.
+    /// The recording whose first state it started from, and the seed.
     pub source: RecordingSource,
     /// Its kind.
     pub kind: EventKind,
@@ -34,7 +34,7 @@ pub struct EventComparison {
     pub video: Option<FileEntry>,
 }
 
-/// Where a simulated event comes from.
+/// Origin of a simulated event.
 #[derive(Clone, PartialEq, Eq, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct RecordingSource {
@@ -56,9 +56,9 @@ pub struct AgentComparison {
     pub recorded: GoalOutcome,
     /// In the simulation.
     pub simulated: GoalOutcome,
-    /// How it moved in the recording; null if there are no steps to compare.
+    /// The agent's motion in the recording; null if there are no steps to compare.
     pub recorded_motion: Option<MotionSummary>,
-    /// How it moved in the simulation; likewise.
+    /// The agent's motion in the simulation; null if there are no steps to compare.
     pub simulated_motion: Option<MotionSummary>,
 }
 
@@ -77,19 +77,19 @@ pub struct MotionSummary {
 /// A comparison with the motion of both agents step by step, which is not stored but needed for pooling.
 #[derive(Clone, PartialEq, Debug)]
 pub struct MeasuredPair {
-    /// What is stored in the file.
+    /// The comparison as it is stored in the file.
     pub comparison: EventComparison,
-    /// How both agents moved in the recording, over the steps compared.
+    /// Motion of both agents in the recording, over the steps compared.
     pub recorded: [MotionStatistics; AGENT_COUNT],
-    /// How both agents moved in the simulation.
+    /// Motion of both agents in the simulation, over the steps compared.
     pub simulated: [MotionStatistics; AGENT_COUNT],
 }
 
 impl AgentComparison {
-    /// Whether the goal is the agent's own and positive: it neither helps nor hinders, and there is something to
-    /// bring about rather than to avoid.
+    /// Whether the goal is the agent's own and positive: it neither helps nor hinders, and there is something
+    /// to bring about rather than to avoid.
     #[must_use]
-    pub fn own_positive(&self) -> bool {
+    pub(crate) fn own_positive(&self) -> bool {
         self.alpha == 0 && self.goal.sign() == Sign::Positive
     }
 
@@ -102,7 +102,8 @@ impl AgentComparison {
 
 impl MotionSummary {
     fn of(motion: &MotionStatistics) -> Option<Self> {
-        let (speed, contact) = (Quartiles::of(&motion.speeds)?, motion.contact_share()?);
+        let speed = Quartiles::of(&motion.speeds)?;
+        let contact = motion.contact_share()?;
         Some(Self { speed, path: motion.path, contact })
     }
 }

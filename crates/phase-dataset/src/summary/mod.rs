@@ -1,7 +1,7 @@
 //! Simulations compared with the recordings they started from: `summary.json`.
 //!
-//! A [`MeasuredPair`] is one recording and one simulation of its scene, measured; a [`EventComparison`] is what the file keeps
-//! of it; a [`KindRow`] pools the pairs of one kind of event.
+//! A [`MeasuredPair`] is one recording and one simulation of its scene, measured; a [`EventComparison`] is
+//! what the file keeps of it; a [`KindRow`] pools the pairs of one kind of event.
 
 mod comparison;
 mod quartiles;

@@ -27,8 +27,8 @@ pub struct KindRow {
     pub recorded_reached: usize,
     /// Agents whose goal was reached in the simulation.
     pub simulated_reached: usize,
-    /// Agents whose positive goal was reached in both, and not from the start of the recording; the three fields
-    /// below are over them.
+    /// Agents whose positive goal was reached in both, and not from the start of the recording; the three
+    /// fields below are over them.
     pub timed: usize,
     /// Median steps to the goal in the recording.
     pub recorded_steps: Option<f64>,
@@ -36,13 +36,13 @@ pub struct KindRow {
     pub simulated_steps: Option<f64>,
     /// Quartiles of each agent's steps to the goal in the simulation over those in the recording.
     pub time_ratio: Option<Quartiles>,
-    /// How agents moved in the recordings.
+    /// Motion of the agents in the recordings.
     pub recorded_motion: MotionQuartiles,
-    /// How agents moved in the simulations.
+    /// Motion of the agents in the simulations.
     pub simulated_motion: MotionQuartiles,
 }
 
-/// How motion is distributed, over the steps that recording and simulation both have; null without steps.
+/// Quartiles of motion, over the steps that recording and simulation both have; null without steps.
 #[derive(Clone, Copy, PartialEq, Debug, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct MotionQuartiles {

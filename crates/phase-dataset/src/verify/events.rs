@@ -16,7 +16,8 @@ use std::{collections::BTreeMap, path::Path};
 /// The members of settings in which the events of a dataset may differ.
 const LENGTHS: [&str; 2] = ["min_steps", "max_steps"];
 
-/// Checks that an event's file holds what follows from its event and nothing else, and agrees with the manifest.
+/// Checks that an event's file holds what follows from its event and nothing else, and agrees with the
+/// manifest.
 pub(super) fn check(folder: &Path, manifest: &Manifest, entry: &EventEntry) -> Result<(), FileError> {
     let file = entry.event.place(folder);
     let recording = parquet::read(folder, entry)?;
@@ -30,7 +31,8 @@ pub(super) fn check(folder: &Path, manifest: &Manifest, entry: &EventEntry) -> R
     let Some(simulation) = &recording.simulation else {
         return Err(fail("substeps", "is missing".into()));
     };
-    let (json, video) = (entry.event.clone(), entry.video.clone());
+    let json = entry.event.clone();
+    let video = entry.video.clone();
     let mut found = EventEntry::with_files(&recording.id, &simulation.event, json, video);
     found.relation = recording.relation;
     (found.variant, found.split, found.set) = (entry.variant, entry.split, entry.set.clone());
@@ -38,7 +40,8 @@ pub(super) fn check(folder: &Path, manifest: &Manifest, entry: &EventEntry) -> R
         serde_json::to_value(entry)
             .map_err(|error| FileError { file: file.clone(), problem: DatasetProblem::Encode(error).into() })
     };
-    let (found, expected) = (encode(&found)?, encode(entry)?);
+    let found = encode(&found)?;
+    let expected = encode(entry)?;
     let disagree =
         |found: &Value, said: &Value| format!("is {}, but the manifest says {}", shown(found), shown(said));
     for (key, value) in expected.as_object().into_iter().flatten() {
@@ -48,8 +51,8 @@ pub(super) fn check(folder: &Path, manifest: &Manifest, entry: &EventEntry) -> R
         }
     }
     if simulation.generator != manifest.generator {
-        let (found, said) =
-            (Value::from(simulation.generator.as_str()), Value::from(manifest.generator.as_str()));
+        let found = Value::from(simulation.generator.as_str());
+        let said = Value::from(manifest.generator.as_str());
         return Err(fail("generator", disagree(&found, &said)));
     }
     if without_lengths(&simulation.settings) != without_lengths(&manifest.settings) {
@@ -68,11 +71,13 @@ pub(super) fn check(folder: &Path, manifest: &Manifest, entry: &EventEntry) -> R
 /// The file that PHASE writes for the event of a recording: everything else in it follows from that.
 fn written(recording: &Recording) -> Result<String, phase_event::EventWriteError> {
     let Some(simulation) = recording.simulation.clone() else { return phase_event::to_json(&[]) };
-    let (id, generator) = (recording.id.as_str(), simulation.generator);
+    let id = recording.id.as_str();
+    let generator = simulation.generator;
     phase_event::to_json(&[Recording::of_event(id, simulation.event, generator, simulation.settings)])
 }
 
-/// Checks that the files of an event and of a set have the names that belong to them, and that sets and events name each other.
+/// Checks that the files of an event and of a set have the names that belong to them, and that sets and
+/// events name each other.
 pub(super) fn names(folder: &Path, manifest: &Manifest) -> Vec<FileError> {
     let mut rules = Vec::new();
     for entry in &manifest.events {

@@ -1,4 +1,4 @@
-//! Which files a folder holds, and which its manifest names.
+//! Comparison of the files in a folder with those that its manifest names.
 
 use crate::DatasetProblem;
 use crate::manifest::{DIGEST_FILE, MANIFEST_FILE, Manifest, SIGNATURE_FILES, digest_line};
@@ -56,7 +56,8 @@ pub(super) fn listed<'a>(
             fail(Problem::content(EventReadError::DuplicateId(event.id.clone())));
         }
     }
-    let (mut files, mut names) = (BTreeMap::new(), BTreeSet::new());
+    let mut files = BTreeMap::new();
+    let mut names = BTreeSet::new();
     for file in manifest.all_files() {
         let path = file.path.as_str();
         if !names.insert(path.to_lowercase()) {
@@ -67,9 +68,9 @@ pub(super) fn listed<'a>(
     files
 }
 
-/// What is wrong with the things in a folder: files that the manifest does not name, folders without files that it names,
-/// links, and what is neither a file nor a folder. The paths of named files that are links or no files are added to `broken`:
-/// nothing outside is looked at, and nothing is waited for.
+/// Everything wrong with the things in a folder: files that the manifest does not name, folders without files
+/// that it names, links, and what is neither a file nor a folder. The paths of named files that are links or
+/// no files are added to `broken`: nothing outside is looked at, and nothing is waited for.
 pub(super) fn foreign<'a>(
     folder: &Path,
     files: &BTreeMap<&'a str, &FileEntry>,

@@ -1,7 +1,8 @@
 //! Whether a dataset's folder contains exactly what its manifest lists, and whether its files agree with each
 //! other.
 //!
-//! Nothing is simulated or drawn for this; `docs/explanation/reliability.md` states what can be found in this way and what cannot.
+//! Nothing is simulated or drawn for this; `docs/explanation/reliability.md` states what can be found in this
+//! way and what cannot.
 
 mod events;
 mod files;
@@ -28,10 +29,10 @@ use std::{
 pub type Check<'a> = dyn Fn(usize) -> Option<FileError> + Sync + 'a;
 
 /// Everything that is wrong with a finished dataset, one error for each problem: files that are missing,
-/// changed or extra, links, special files, a manifest or events that are not in the form in which they are written, videos
-/// that are cut or of another length than their events, and event files, Parquet files and descriptions that contradict the
-/// manifest. The contents of a damaged file are not checked. Files are read one after the other; besides the manifest and its text, one
-/// group of events is in memory.
+/// changed or extra, links, special files, a manifest or events that are not in the form in which they are
+/// written, videos that are cut or of another length than their events, and event files, Parquet files and
+/// descriptions that contradict the manifest. The contents of a damaged file are not checked. Files are read
+/// one after the other; besides the manifest and its text, one group of events is in memory.
 #[must_use]
 pub fn verify(folder: &Path, manifest: &Manifest) -> Vec<FileError> {
     let in_order =
@@ -40,8 +41,9 @@ pub fn verify(folder: &Path, manifest: &Manifest) -> Vec<FileError> {
     problems
 }
 
-/// As [`verify`], with an executor: `run` performs the given number of checks, numbered from 0, in any order and
-/// on any threads, and returns the results by number. `done` receives the share of [`work`] of each check.
+/// As [`verify`], with an executor: `run` performs the given number of checks, numbered from 0, in any order
+/// and on any threads, and returns the results by number. `done` receives the share of [`work`] of each
+/// check.
 ///
 /// # Errors
 /// Those of `run`.

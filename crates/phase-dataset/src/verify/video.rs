@@ -1,5 +1,5 @@
-//! Whether a video is whole and has as many frames as its event, by the boxes of its container alone. Whether it shows the event
-//! takes drawing it again.
+//! Whether a video is whole and has as many frames as its event, by the boxes of its container alone. Whether
+//! it shows the event takes drawing it again.
 
 use phase_files::{FileError, Problem, checksum::FileEntry};
 use phase_model::arena::SUBSTEPS;
@@ -37,7 +37,8 @@ pub(super) fn check(folder: &Path, entry: &FileEntry, steps: usize) -> Result<()
 fn frame_sizes(path: &Path) -> io::Result<Result<Vec<u32>, String>> {
     let mut file = File::open(path)?;
     let length = file.metadata()?.len();
-    let (mut at, mut sizes) = (0, None);
+    let mut at = 0;
+    let mut sizes = None;
     for expected in BOXES {
         let Some((name, head, whole)) = head(&mut file, at, length)? else {
             return Ok(Err("it ends too early".into()));

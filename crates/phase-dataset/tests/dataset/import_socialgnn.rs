@@ -12,8 +12,8 @@ const IMPORTER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../data/import_s
 /// Real recordings, absent from the repository.
 const REAL: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/real-phase");
 
-/// Makes `recordings.pkl` in its working folder: an unmirrored entry, one mirrored up and down, one mirrored at a
-/// diagonal, and an empty one, all with the defects of the published ones.
+/// Makes `recordings.pkl` in its working folder: an unmirrored entry, one mirrored up and down, one mirrored
+/// at a diagonal, and an empty one, all with the defects of the published ones.
 const MADE_UP: &str = r#"
 import pickle, numpy
 NAME = "D010121_1021040_0_F8_E{}_G{}_ST0_3_SZ0_1_2_3_P1_5_2_4_A0_0_C0_0_AN0.1_0.2_MCTS_L{}_R{}_PL1_EL1_0_0_s1000.mp4"

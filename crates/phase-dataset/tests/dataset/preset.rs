@@ -40,8 +40,8 @@ const fn relation(kind: EventKind) -> Relation {
     }
 }
 
-/// The paper's numbers (section "Dataset Statistics"), for the dataset and in proportion for one three times as
-/// large.
+/// The paper's numbers (section "Dataset Statistics"), for the dataset and in proportion for one three times
+/// as large.
 #[test]
 fn both_editions_have_the_papers_composition() {
     for (text, times) in [(PHASE_500_V1, 1), (PHASE_500_V1, 3), (PHASE_500, 1), (PHASE_500, 3)] {
@@ -137,8 +137,8 @@ fn ends_are_drawn_for_those_at_odds() {
     assert_eq!(settled.sampled_length(Relation::Adversarial, 1, 0), None);
 }
 
-/// The length depends on the slot alone: neither on the relation nor on how many scenes were rejected. It is the smaller of
-/// two uniform ones, whose mean over 0 to 60 is (60 · 121) / (6 · 61).
+/// The length depends on the slot alone: neither on the relation nor on how many scenes were rejected. It is
+/// the smaller of two uniform ones, whose mean over 0 to 60 is (60 · 121) / (6 · 61).
 #[test]
 fn lengths_are_the_same_for_all_kinds() {
     let selection = Preset::parse("v2", PHASE_500).expect("a preset").selection.expect("selects");

@@ -66,7 +66,7 @@ fn shards_share_the_slots_out() {
 }
 
 fn whole() -> DatasetDescription {
-    let text = r#"{"preset": "p", "events": 5, "slots": 5, "seed": 1, "generator": "g", "settings": {}, "selected": true, "command": "c"}"#;
+    let text = r#"{"preset": "p", "events": 5, "slots": 5, "seed": 1, "generator": "g", "settings": {}, "selected": true, "videos": true, "date_published": null, "command": "c"}"#;
     serde_json::from_str(text).expect("a description")
 }
 

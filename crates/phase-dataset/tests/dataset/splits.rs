@@ -30,7 +30,7 @@ fn item(k: usize, kind: EventKind, goals: [Goal; 2], base: u8) -> Item {
 }
 
 #[test]
-fn the_papers_quota() {
+fn quotas_are_those_of_the_paper() {
     let quota = SplitQuota { train: 320, validation: 80, test: 100, unseen: 80, exclusive: 9 };
     assert_eq!(SplitQuota::of(500), quota);
     let double = SplitQuota { train: 640, validation: 160, test: 200, unseen: 160, exclusive: 18 };

@@ -14,8 +14,8 @@ fn outcome(steps: Option<usize>) -> GoalOutcome {
     GoalOutcome { reached: steps.is_some(), steps }
 }
 
-/// An event whose agents took these numbers of steps, recorded and simulated; `None` is never. Agent 0 moved at
-/// 2 u/s in the recording and at 1 u/s in the simulation, agent 1 at twice that and in contact.
+/// An event whose agents took these numbers of steps, recorded and simulated; `None` is never. Agent 0 moved
+/// at 2 u/s in the recording and at 1 u/s in the simulation, agent 1 at twice that and in contact.
 fn pair(id: &str, kind: EventKind, agents: [(Option<usize>, Option<usize>); 2]) -> MeasuredPair {
     let motion = |speed: f32, contact_steps| MotionStatistics {
         speeds: vec![speed; 4],
@@ -180,8 +180,8 @@ fn walk(steps: usize, stride: f32) -> Event {
     event
 }
 
-/// Rows are means over five substeps: the first lies three strides from the start, each other five from the one
-/// before, and a step takes 1/12 s.
+/// Rows are means over five substeps: the first lies three strides from the start, each other five from the
+/// one before, and a step takes 1/12 s.
 #[test]
 fn a_pair_is_measured_over_the_steps_both_have() {
     let folder = tempfile::tempdir().expect("a folder");

@@ -64,10 +64,10 @@ pub struct Answer {
     /// The relations' probabilities.
     pub relation: RelationProbabilities,
     /// The probabilities that either agent helps or hinders the other, if the method says.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub roles: Option<RoleProbabilities>,
     /// The shares of people who would report each relation, if the method says.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub reported: Option<RelationProbabilities>,
 }
 
@@ -136,13 +136,10 @@ pub struct Label {
     /// Whether the base layout occurs in the training or validation events too; `None` where unknown.
     pub layout_seen: Option<bool>,
     /// The agent that helps or hinders the other, if one does.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub role: Option<SocialRole>,
     /// People's ratings of the relation, where they were asked.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub ratings: Option<RatingCounts>,
     /// The set of events that it belongs to, which differ in one social variable, if it belongs to one.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub set: Option<String>,
 }
 
@@ -186,13 +183,10 @@ pub struct RecognisedEvent {
     /// The label.
     pub label: Label,
     /// Answers after prefixes of the event, in the order requested.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub watched: Vec<PartialAnswer>,
     /// CPU time for the answer to the whole event (s), if measured.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub cpu_seconds: Option<f64>,
     /// Details that the method attached.
-    #[serde(default, skip_serializing_if = "Value::is_null")]
     pub details: Value,
 }
 

@@ -66,24 +66,24 @@ pub struct RecognitionSummary {
     /// By length of the prefix, if requested. Events that end earlier are included as a whole.
     pub watched: Vec<GroupScores<RecognitionScores>>,
     /// By sets of events that differ in one social variable, if there are any.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub sets: Option<SetScores>,
     /// Scores of naming the agent that helps or hinders, if the method says.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub roles: Option<RoleScores>,
     /// Scores of naming that agent, by kind of event.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub role_kinds: Vec<GroupScores<RoleScores>>,
     /// Agreement with people's ratings, of the events that were rated.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub agreement: Option<Agreement>,
     /// Agreement of reports predicted by models that did not see the event's ratings, where the method's own
     /// model did.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub held_out_agreement: Option<Agreement>,
     /// Agreement of the probabilities of relations with people's ratings, where the method predicts reports
     /// beside them.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub relation_agreement: Option<Agreement>,
     /// Confusion matrix of relations (number of events): `confusion[right][said]`, both in the order of
     /// [`RELATIONS`].

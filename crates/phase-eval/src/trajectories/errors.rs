@@ -63,15 +63,12 @@ pub struct ForecastEvent {
     /// Errors over agents and objects.
     pub entities: Errors,
     /// Scores of the distribution of futures, if the method gave one.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub samples: Option<SampleErrors>,
     /// The predicted positions, `[x, y]` (u) by entity and step.
     pub forecast: Vec<Vec<[f32; 2]>>,
     /// CPU time for the prediction (s).
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub cpu_seconds: Option<f64>,
     /// Details that the method attached.
-    #[serde(default, skip_serializing_if = "Value::is_null")]
     pub details: Value,
 }
 

@@ -21,7 +21,7 @@ pub struct ForecastScores {
     pub fde_entities: Estimate,
     /// Scores of the distribution of futures, over the events for which the method gave one; `None` without
     /// any.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub samples: Option<SampleScores>,
 }
 

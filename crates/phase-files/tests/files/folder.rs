@@ -1,4 +1,4 @@
-//! Which run a folder belongs to.
+//! Folders of runs, and the run that each belongs to.
 
 use phase_files::{
     folder::{self, Contents, Folder, FolderError},
@@ -13,7 +13,7 @@ fn run() -> Run {
 }
 
 #[test]
-fn the_life_of_a_folder() {
+fn a_folder_is_new_then_unfinished_then_finished() {
     let parent = tempfile::tempdir().expect("a folder");
     let path = parent.path().join("new").join("deeper");
     assert_eq!(folder::inspect(&path, LAST).expect("usable"), Contents::Nothing);
@@ -49,7 +49,7 @@ fn the_life_of_a_folder() {
 }
 
 #[test]
-fn an_empty_folder_will_do() {
+fn an_empty_folder_is_accepted() {
     let folder = tempfile::tempdir().expect("a folder");
     assert_eq!(folder::inspect(folder.path(), LAST).expect("usable"), Contents::Nothing);
 }

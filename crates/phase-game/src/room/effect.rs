@@ -1,4 +1,4 @@
-//! What follows from what a room is told.
+//! Effects: everything that follows from a call of a room, for its caller to carry out.
 
 use crate::{Entry, ToPlayer};
 use phase_event::Recording;
@@ -6,7 +6,7 @@ use phase_model::AgentId;
 use phase_sim::SimulationError;
 use thiserror::Error;
 
-/// Why a game cannot be played.
+/// Why a game cannot be played, or cannot go on.
 #[derive(Clone, PartialEq, Debug, Error)]
 pub enum RoomError {
     /// There is nothing to play.
@@ -17,8 +17,8 @@ pub enum RoomError {
     Simulation(#[from] SimulationError),
 }
 
-/// Something that follows from what a room was told. Effects are to be carried out in their order: an entry is in the journal before
-/// anybody sees the step.
+/// Something that follows from what a room was told. Effects are to be carried out in their order: an entry
+/// is in the journal before anybody sees the step.
 #[derive(Clone, PartialEq, Debug)]
 pub enum Effect {
     /// An entry of the journal.
@@ -27,4 +27,7 @@ pub enum Effect {
     Send(AgentId, ToPlayer),
     /// A round that was played to its end.
     Finished(Box<Recording>),
+    /// The simulation failed, and with it the game. Players are told so; why concerns whoever runs the
+    /// server.
+    Failed(RoomError),
 }

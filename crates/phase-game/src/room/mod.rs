@@ -17,7 +17,7 @@ use phase_model::{AGENT_COUNT, Action, AgentId, Entity, Goal, PhysicsConfig, Sig
 use phase_predicates::achieved;
 use phase_sim::{Simulation, SimulationError, SimulationSettings};
 
-/// What a room is doing; times are those at which it does the next thing.
+/// The activity of a room; times are those at which it does the next thing.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(crate) enum Phase {
     Gathering,
@@ -37,7 +37,13 @@ struct Seat {
     controls: Controls,
 }
 
-/// One game.
+/// One game: a practice, then rounds, one scene each.
+///
+/// The caller owns sockets, files and the clock. It tells the room who comes ([`Room::connect`]), leaves
+/// ([`Room::disconnect`]) and sends what ([`Room::receive`]), lets it act when something is due
+/// ([`Room::due`], [`Room::advance`]), and carries out the [`Effect`]s that each call returns, in their
+/// order. Times count from any moment that is the same for all calls. A room that is resumed from its journal
+/// goes on as if nothing had happened.
 #[derive(Debug)]
 pub struct Room {
     name: String,
@@ -60,8 +66,8 @@ pub struct Room {
 }
 
 impl Room {
-    /// A room for a practice, the first of the rounds, and the rounds after it. `keys` are kept in the journal for whoever lets players
-    /// in.
+    /// A room for a practice, the first of the rounds, and the rounds after it. `keys` are kept in the
+    /// journal for whoever lets players in.
     ///
     /// # Errors
     /// [`RoomError`].
@@ -123,13 +129,13 @@ impl Room {
         &self.keys
     }
 
-    /// Who plays each agent.
+    /// By agent, whether a person or a mind plays it.
     #[must_use]
     pub const fn players(&self) -> [Player; AGENT_COUNT] {
         self.settings.players
     }
 
-    /// What it is doing.
+    /// Activity of the game.
     #[must_use]
     pub const fn doing(&self) -> Doing {
         match self.phase {
@@ -148,7 +154,7 @@ impl Room {
         (self.round, self.rounds.len() - 1)
     }
 
-    /// When [`advance`](Self::advance) is to be called next; `None` once the game is over.
+    /// Time at which [`advance`](Self::advance) is to be called next; `None` once the game is over.
     #[must_use]
     pub fn due(&self) -> Option<Duration> {
         let next = match self.phase {
@@ -160,7 +166,7 @@ impl Room {
         [next, self.given_up()].into_iter().flatten().min()
     }
 
-    /// When the game is given up if nobody comes.
+    /// Time at which the game is given up if nobody comes.
     fn given_up(&self) -> Option<Duration> {
         let gathering = self.phase == Phase::Gathering;
         let patience = if gathering { self.settings.lobby_patience } else { self.settings.patience };
@@ -174,7 +180,7 @@ impl Room {
         soon && !self.thought && self.settings.players.contains(&Player::Mind)
     }
 
-    /// Lets the minds decide on the next step. If that fails, so does the step.
+    /// Lets the minds decide on the next step. If that fails, so does the step, which says why.
     pub fn think(&mut self) {
         for agent in AgentId::ALL {
             if self.settings.players[agent] == Player::Mind && self.simulation.decide_ahead(agent).is_err() {
@@ -297,8 +303,8 @@ impl Room {
         }
         let (actions, substeps) = match self.simulation.step(given) {
             Ok(step) => (step.actions, step.substeps),
-            Err(_) => {
-                self.finish(Ending::Failed, effects);
+            Err(error) => {
+                self.fail(error, effects);
                 return self.tell(now, effects);
             }
         };
@@ -348,8 +354,8 @@ impl Room {
         }
         if self.round + 1 == self.rounds.len() {
             self.finish(Ending::Complete, effects);
-        } else if self.go_to(self.round + 1).is_err() {
-            self.finish(Ending::Failed, effects);
+        } else if let Err(error) = self.go_to(self.round + 1) {
+            self.fail(error, effects);
         } else {
             self.phase = Phase::Reading;
             for agent in AgentId::ALL {
@@ -370,6 +376,11 @@ impl Room {
             seat.controls.release();
         }
         Ok(())
+    }
+
+    fn fail(&mut self, error: SimulationError, effects: &mut Vec<Effect>) {
+        effects.push(Effect::Failed(error.into()));
+        self.finish(Ending::Failed, effects);
     }
 
     fn finish(&mut self, ending: Ending, effects: &mut Vec<Effect>) {

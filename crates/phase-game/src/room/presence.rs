@@ -1,4 +1,4 @@
-//! Who is there, and what follows from it.
+//! Presence of the players, and pauses when one is absent.
 
 use super::{Phase, Room};
 use crate::Player;

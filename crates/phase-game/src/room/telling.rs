@@ -1,4 +1,4 @@
-//! What a room tells its players, and what it becomes.
+//! Messages to the players, and the recordings that rounds become.
 
 use super::{Effect, Phase, Room};
 use crate::{
@@ -11,7 +11,7 @@ use phase_model::{AGENT_COUNT, AgentId, State};
 use serde_json::Value;
 
 impl Room {
-    /// What has been played of the round, as an event.
+    /// The part of the round that has been played, as a recorded event.
     #[must_use]
     pub fn recording(&self) -> Recording {
         let round = &self.rounds[self.round];

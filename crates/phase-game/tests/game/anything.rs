@@ -28,8 +28,8 @@ fn happening() -> impl Strategy<Value = Happening> {
 proptest! {
     #![proptest_config(ProptestConfig { cases: 200, ..ProptestConfig::default() })]
 
-    /// Whatever happens in whatever order: no step while somebody is absent, messages go to who is connected only, and the journal
-    /// can be resumed.
+    /// Whatever happens in whatever order: no step while somebody is absent, messages go to who is connected
+    /// only, and the journal can be resumed.
     #[test]
     fn rooms_survive_anything(happenings in prop::collection::vec(happening(), 0..120)) {
         let mut table = Table::two();
@@ -40,7 +40,12 @@ proptest! {
             let told = table.effects.len();
             let before = connected;
             match happening {
-                Happening::Wait => if table.room.due().is_some_and(|due| due < table.now + Duration::from_secs(30)) { table.wait() },
+                Happening::Wait => {
+                    let soon = table.now + Duration::from_secs(30);
+                    if table.room.due().is_some_and(|due| due < soon) {
+                        table.wait();
+                    }
+                }
                 Happening::Time(ms) => {
                     table.now += Duration::from_millis(ms);
                     let effects = table.room.advance(table.now);
@@ -61,8 +66,13 @@ proptest! {
                         0..=3 => FromPlayer::Ready,
                         4 => FromPlayer::Hold(Action::Up),
                         5 => FromPlayer::Grab,
-                        6 => { if table.room.doing() != Doing::Over { away[k] = true }; FromPlayer::Away(true) }
-                        _ => { if table.room.doing() != Doing::Over { away[k] = false }; FromPlayer::Away(false) }
+                        rest => {
+                            let gone = rest == 6;
+                            if table.room.doing() != Doing::Over {
+                                away[k] = gone;
+                            }
+                            FromPlayer::Away(gone)
+                        }
                     };
                     table.tell(AgentId::ALL[k], message);
                 }
@@ -76,7 +86,8 @@ proptest! {
                 }
             }
         }
-        let resumed = Room::resume(entries(&lines(&table.entries())).expect("our own journal"), Duration::ZERO);
+        let journal = entries(&lines(&table.entries())).expect("our own journal");
+        let resumed = Room::resume(journal, Duration::ZERO);
         let resumed = resumed.expect("our own journal");
         prop_assert_eq!(resumed.is_none(), table.room.doing() == Doing::Over);
         if let Some((room, effects)) = resumed {

@@ -13,7 +13,8 @@ use phase_model::Action;
 fn a_game_goes_on_where_its_journal_ends() {
     for players in [[Player::Human; 2], [Player::Human, Player::Mind]] {
         let script = |table: &mut Table| {
-            // From the round's number and the step, so that it does not depend on when the game was interrupted.
+            // From the round's number and the step, so that it does not depend on when the game was
+            // interrupted.
             let step = table.room.recording().simulation.map_or(0, |it| it.event.steps.len());
             let action = Action::ALL[(table.room.progress().0 * 5 + step) % 8];
             table.tell(RED, FromPlayer::Hold(action));

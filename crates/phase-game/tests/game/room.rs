@@ -3,10 +3,12 @@
 use crate::support::{GREEN, RED, Table, round, settings};
 use core::time::Duration;
 use phase_event::{Controller, Recording, Thought};
-use phase_game::{Doing, Effect, Ending, Entry, FromPlayer, GameSettings, Player, STEP, ToPlayer, View};
+use phase_game::{
+    Doing, Effect, Ending, Entry, FromPlayer, GameSettings, Player, RoomError, STEP, ToPlayer, View,
+};
 use phase_model::{Action, AgentId, Entity, Goal, LandmarkId, Sign, Vec2, arena};
 use phase_perception::observe;
-use phase_sim::{Simulation, SimulationSettings};
+use phase_sim::{Simulation, SimulationError, SimulationSettings};
 
 #[test]
 fn two_people_play_all_rounds() {
@@ -226,4 +228,23 @@ fn late_steps_are_not_made_up_for() {
     assert_eq!(effects.iter().filter(|it| matches!(it, Effect::Journal(Entry::Step { .. }))).count(), 1);
     let due = table.room.due().expect("the next step");
     assert!(due >= table.now && due <= table.now + STEP);
+}
+
+#[test]
+fn a_failed_simulation_ends_the_game_and_says_why() {
+    let mut settings = settings([Player::Human, Player::Mind]);
+    // A search tree of so many nodes cannot be had, which the search finds when it begins.
+    settings.simulation.minds = settings.simulation.minds.with_simulations(usize::MAX);
+    let mut table = Table::new(settings, vec![round("", "independent")]).both_come();
+    table.tell(RED, FromPlayer::Ready);
+    table.room.think();
+    table.play_until(Doing::Over);
+    let errors = table.effects.iter().filter_map(|effect| match effect {
+        Effect::Failed(error) => Some(error),
+        _ => None,
+    });
+    let errors: Vec<_> = errors.collect();
+    assert!(matches!(errors[..], [RoomError::Simulation(SimulationError::Search(_))]), "{errors:?}");
+    assert!(errors[0].to_string().contains("simulations"), "{}", errors[0]);
+    assert_eq!(table.entries().last(), Some(&Entry::Over { ending: Ending::Failed }));
 }

@@ -1,4 +1,5 @@
-//! Load test of the two-player game: many rooms at once, each with two players that are programs, over real sockets, on this machine.
+//! Load test of the two-player game: many rooms at once, each with two players that are programs, over real
+//! sockets, on this machine.
 //!
 //! ```sh
 //! cargo run --release --package phase-serve --example load_test -- --rooms 200 --seconds 30
@@ -6,9 +7,10 @@
 //! cargo run --release --package phase-serve --example load_test -- --rooms 20 --partner mind
 //! ```
 //!
-//! Players press keys at random, or are minds that see what the server tells their agents. Printed as JSON: how late steps arrived, in
-//! milliseconds after the time at which they were due. A room's schedule begins with the step that came earliest relative to its number, so
-//! lateness includes the server, the sockets and the players' own waiting for a processor.
+//! Players press keys at random, or are minds that see what the server tells their agents. Printed as JSON:
+//! how late steps arrived, in milliseconds after the time at which they were due. A room's schedule begins
+//! with the step that came earliest relative to its number, so lateness includes the server, the sockets and
+//! the players' own waiting for a processor.
 
 mod client;
 mod mind;
@@ -146,8 +148,11 @@ fn report(options: &Options, mut lateness: Vec<f64>) -> serde_json::Value {
     };
     json!({
         "rooms": options.rooms, "seconds": options.seconds,
-        "players": format!("{:?}", options.players).to_lowercase(), "partner": format!("{:?}", options.partner).to_lowercase(),
+        "players": format!("{:?}", options.players).to_lowercase(),
+        "partner": format!("{:?}", options.partner).to_lowercase(),
         "simulations": options.simulations, "steps_seen": lateness.len(),
-        "late_ms": { "median": quantile(0.5), "p90": quantile(0.9), "p99": quantile(0.99), "worst": quantile(1.0) },
+        "late_ms": {
+            "median": quantile(0.5), "p90": quantile(0.9), "p99": quantile(0.99), "worst": quantile(1.0),
+        },
     })
 }

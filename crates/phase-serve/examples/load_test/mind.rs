@@ -27,7 +27,8 @@ pub(crate) struct Player {
 }
 
 impl Player {
-    /// The mind of an agent of the scene that a message `stage` tells of: the one with these walls, bodies and instructions.
+    /// The mind of an agent of the scene that a message `stage` tells of: the one with these walls, bodies
+    /// and instructions.
     pub(crate) fn new(
         scenes: &[Item],
         stage: &Value,

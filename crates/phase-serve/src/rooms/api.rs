@@ -1,4 +1,4 @@
-//! What pages ask of rooms over HTTP.
+//! The interface of pages to rooms, over HTTP.
 
 use super::{Rooms, Wish, socket};
 use crate::{
@@ -32,16 +32,17 @@ pub(crate) fn routes() -> Router<Arc<App>> {
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Asked {
-    /// Who plays the other agent.
+    /// The player of the other agent: a person or a mind.
     partner: Player,
-    /// What players see.
+    /// The part of the world that players see: their own agents' unless given.
     #[serde(default)]
     view: View,
     /// The agent of who asks, 0 or 1; by chance if absent.
     agent: Option<u8>,
 }
 
-/// Opens a room: `{"partner": "human", "view": "own", "agent": 0}`; answers with its name and the tokens by agent, `null` for a mind.
+/// Opens a room: `{"partner": "human", "view": "own", "agent": 0}`; answers with its name and the tokens by
+/// agent, `null` for a mind.
 async fn create(
     State(app): State<Arc<App>>,
     Extension(Client(address)): Extension<Client>,
@@ -73,7 +74,7 @@ async fn create(
     Ok((StatusCode::CREATED, Json(json!({ "room": opened.name, "agent": own, "tokens": opened.tokens }))))
 }
 
-/// What the page of the game has to know before there is a room.
+/// Answers with all that the page of the game has to know before there is a room.
 async fn describe(State(app): State<Arc<App>>) -> Json<Value> {
     Json(json!({ "open": app.settings.open, "rounds": app.settings.rounds.min(app.rooms.given().len()) }))
 }

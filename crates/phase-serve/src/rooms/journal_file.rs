@@ -10,8 +10,9 @@ use std::{
 
 /// A journal that is being written.
 ///
-/// An entry is with the operating system before anybody sees what it tells, so that nothing is lost if this program is killed; it is
-/// forced to the disk at the end of each round, so that a power failure costs the round that is played and nothing else.
+/// An entry is with the operating system before anybody sees what it tells, so that nothing is lost if this
+/// program is killed; it is forced to the disk at the end of each round, so that a power failure costs the
+/// round that is played and nothing else.
 #[derive(Debug)]
 pub(super) struct JournalFile {
     path: PathBuf,

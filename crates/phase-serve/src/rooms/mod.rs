@@ -43,7 +43,7 @@ const INBOX: usize = 64;
 /// Letters of an event's id that stay in the id of a recording.
 const SOURCE_LETTERS: usize = 80;
 
-/// Who plays, and what is seen.
+/// The wish for a room: its players, and the part of the world that they see.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Wish {
     pub(crate) players: [Player; AGENT_COUNT],

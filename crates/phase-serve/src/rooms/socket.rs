@@ -17,7 +17,7 @@ use tokio::{
 pub(super) const LARGEST_MESSAGE: usize = 512;
 /// Messages that wait for a player at most: four seconds of a game.
 const OUTBOX: usize = 32;
-/// How long a page may take to say who it is.
+/// Time in which a page has to say who it is.
 const INTRODUCTION_TIME: Duration = Duration::from_secs(10);
 /// Time between questions whether a player is still there.
 const PING: Duration = Duration::from_secs(5);
@@ -28,7 +28,8 @@ const MESSAGES: (f64, f64) = (60.0, 30.0);
 /// So many messages too many, and the connection is closed.
 const TOO_MANY: u32 = 200;
 
-/// The code with which a connection is closed in favour of another one (of those left to applications, RFC 6455, 7.4.2).
+/// The code with which a connection is closed in favour of another one (of those left to applications, RFC
+/// 6455, 7.4.2).
 const ANOTHER_CONNECTION: u16 = 4001;
 
 /// The first message of a page.
@@ -101,7 +102,8 @@ pub(super) async fn play(rooms: Arc<Rooms>, mut socket: WebSocket) {
                 }
                 match FromPlayer::parse(&text) {
                     Ok(message) => {
-                        if inbox.send(Command::Message { agent, connection, message }).await.is_err() { break }
+                        let command = Command::Message { agent, connection, message };
+                        if inbox.send(command).await.is_err() { break }
                     }
                     Err(error) => {
                         let problem = ToPlayer::Problem { text: error.to_string() };

@@ -5,22 +5,23 @@ use crate::log;
 use axum::extract::ws::Utf8Bytes;
 use phase_event::Recording;
 use phase_files::{WriteError, atomic};
-use phase_game::{Doing, Effect, Ending, Entry, FromPlayer, Room, ToPlayer};
+use phase_game::{Doing, Effect, Ending, Entry, FromPlayer, Room, RoomError, ToPlayer};
 use phase_model::{AGENT_COUNT, AgentId};
 use std::{
     path::PathBuf,
     sync::{Arc, Mutex, PoisonError},
     time::Duration,
 };
+use thiserror::Error;
 use tokio::{
     sync::{Semaphore, mpsc, watch},
     time::{Instant, sleep_until},
 };
 
-/// How long the page of a finished game stays connected, so that its last messages arrive.
+/// Time for which the page of a finished game stays connected, so that its last messages arrive.
 const LINGER: Duration = Duration::from_secs(2);
 
-/// What a room is told.
+/// A command to a room.
 #[derive(Debug)]
 pub(super) enum Command {
     /// A connection for a player.
@@ -33,7 +34,15 @@ pub(super) enum Command {
     End,
 }
 
-/// What others may know of a game.
+/// A game that ended because its simulation failed.
+#[derive(Debug, Error)]
+#[error("game {room}: the simulation failed, and the game is over")]
+struct GameFailure {
+    room: String,
+    source: RoomError,
+}
+
+/// The part of a game that others may know.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Status {
     pub(super) doing: Doing,
@@ -108,7 +117,8 @@ impl Task {
         };
         match command {
             Command::Connect { agent, connection, out } => {
-                // The newest page of a player counts; the one before it is disconnected when its sender is dropped.
+                // The newest page of a player counts; the one before it is disconnected when its sender is
+                // dropped.
                 seats[agent] = Some((connection, out));
                 self.room.connect(agent, now)
             }
@@ -154,6 +164,9 @@ impl Task {
                 Effect::Journal(entry) => self.journal.append(&entry)?,
                 Effect::Send(agent, message) => send(seats, agent, &message),
                 Effect::Finished(recording) => save(self.events.clone(), recording).await?,
+                Effect::Failed(source) => {
+                    log::failure(&GameFailure { room: self.room.name().to_owned(), source });
+                }
             }
         }
         Ok(())

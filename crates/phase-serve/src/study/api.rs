@@ -1,7 +1,7 @@
-//! What the page of a study asks: `/study/<name>/api/…`.
+//! The interface of a study's page: `/study/<name>/api/…`.
 //!
-//! Bodies and answers are JSON. A rater shows who it is by `Authorization: Bearer <token>`; every answer but that of `join` is what it
-//! sees next.
+//! Bodies and answers are JSON. A rater shows who it is by `Authorization: Bearer <token>`; every answer but
+//! that of `join` is what it sees next.
 
 use super::{Running, new_token, now};
 use crate::{
@@ -46,7 +46,8 @@ pub(super) async fn list(State(app): State<Arc<App>>) -> Json<Value> {
     Json(json!({ "studies": all.collect::<Vec<_>>() }))
 }
 
-/// Without the last stroke, so that the relative links of the page are right. What came with the address goes on with it.
+/// Without the last stroke, so that the relative links of the page are right. What came with the address goes
+/// on with it.
 async fn folder(
     State(app): State<Arc<App>>,
     Path(study): Path<String>,
@@ -104,7 +105,8 @@ fn parameters(document: &Value) -> Result<BTreeMap<String, String>, phase_model:
 }
 
 async fn state(State(app): State<Arc<App>>, Path(study): Path<String>, headers: HeaderMap) -> Answer {
-    let (running, token) = (app.studies.get(&study)?, token(&headers)?);
+    let running = app.studies.get(&study)?;
+    let token = token(&headers)?;
     Ok(Json(running.with(move |study| study.stage(&token)).await?))
 }
 
@@ -186,7 +188,8 @@ async fn post_with(
 ) -> Answer {
     let running: Arc<Running> = app.studies.get(study)?;
     own_page(headers)?;
-    let (token, document) = (token(headers)?, document(body)?);
+    let token = token(headers)?;
+    let document = document(body)?;
     Ok(Json(running.with(move |study| action(study, token, document)).await?))
 }
 

@@ -1,4 +1,4 @@
-//! What the person in charge sees of studies: `/admin/api/studies…`.
+//! Studies as the person in charge sees them: `/admin/api/studies…`.
 
 use super::Running;
 use crate::{App, admin, error::ApiError};
@@ -26,21 +26,28 @@ pub(super) fn routes() -> Router<Arc<App>> {
         .route("/admin/api/studies/{study}/{file}", get(file))
 }
 
-/// How far all studies are.
+/// Answers with the progress of all studies.
 async fn progress(State(app): State<Arc<App>>, headers: HeaderMap) -> Result<Json<Value>, ApiError> {
     admin::check(&app, &headers)?;
     let mut all = Vec::new();
     for running in app.studies.0.values() {
-        all.push(computed(running, |config, _, raters| Ok(json!({
-            "name": config.name, "form": config.form.name(), "title": config.title, "raters": phase_study::analysis::count(config, raters),
-            "wanted": config.raters, "coverage": phase_study::analysis::coverage(config, raters),
-            "raters_per_video": config.raters_per_video,
-        }))).await?);
+        all.push(
+            computed(running, |config, _, raters| {
+                Ok(json!({
+                    "name": config.name, "form": config.form.name(), "title": config.title,
+                    "raters": phase_study::analysis::count(config, raters),
+                    "wanted": config.raters, "coverage": phase_study::analysis::coverage(config, raters),
+                    "raters_per_video": config.raters_per_video,
+                }))
+            })
+            .await?,
+        );
     }
     Ok(Json(json!({ "studies": all })))
 }
 
-/// A file of a study: `psych-ds.tar` (with `?external_ids` also with what raters came), `ratings.json`, `report.html` or `analysis.json`.
+/// A file of a study: `psych-ds.tar` (with `?external_ids` also with what raters came), `ratings.json`,
+/// `report.html` or `analysis.json`.
 async fn file(
     State(app): State<Arc<App>>,
     headers: HeaderMap,

@@ -84,7 +84,8 @@ impl Running {
         fs::create_dir_all(folder).map_err(|source| ServeError::Read { path: folder.to_owned(), source })?;
         let path = folder.join(format!("{}.sqlite", config.name));
         let store = Store::open(&path, &config.name, config.form.name())?;
-        let (name, title) = (config.name.clone(), config.title.clone());
+        let name = config.name.clone();
+        let title = config.title.clone();
         let study = Study::new(config, forms.clone(), store).map_err(|error| wrong(error.to_string()))?;
         let videos = study.addresses().map(|(name, file)| (name.to_owned(), base.join(file))).collect();
         Ok(Self { study: Mutex::new(study), forms, videos, name, title })
@@ -103,7 +104,7 @@ impl Running {
     }
 }
 
-/// What a study refuses, over HTTP.
+/// The answer over HTTP to a request that a study refuses.
 fn refusal(error: StudyError) -> ApiError {
     use axum::http::StatusCode;
     match error {

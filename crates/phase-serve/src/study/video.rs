@@ -65,17 +65,17 @@ pub(super) async fn video(
     Ok(response)
 }
 
-/// What a request wants of a file.
+/// The part of a file that a request wants.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 enum Asked {
     Whole,
     Part(Part),
-    /// What is not there.
+    /// A range that lies outside of the file.
     Nothing,
 }
 
-/// The part that a `Range` asks for. Several ranges at once, other units and what cannot be read are answered with the whole, as the
-/// RFC allows.
+/// The part that a `Range` asks for. Several ranges at once, other units and what cannot be read are answered
+/// with the whole, as the RFC allows.
 fn range(asked: &str, length: u64) -> Asked {
     let Some((from, to)) = asked.strip_prefix("bytes=").and_then(|range| range.trim().split_once('-')) else {
         return Asked::Whole;

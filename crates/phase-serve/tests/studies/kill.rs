@@ -104,7 +104,8 @@ fn no_acknowledged_answer_is_lost_when_the_server_is_killed() {
                     }
                 });
             }
-            // At a moment that has nothing to do with what the server is doing, later each time so that an end is reached.
+            // At a moment that has nothing to do with what the server is doing, later each time so that an
+            // end is reached.
             std::thread::sleep(Duration::from_millis(300 + 271 * kills));
             let all = acknowledged.iter().all(|count| *count.lock().expect("free") == VIDEOS as u64);
             if !all {

@@ -14,7 +14,8 @@ use std::{
 };
 use tokio::sync::oneshot;
 
-/// A study of so many videos, each wanted by `raters` who see all of them, and its videos; returns the configuration's path.
+/// A study of so many videos, each wanted by `raters` who see all of them, and its videos; returns the
+/// configuration's path.
 pub(crate) fn write_study(folder: &Path, videos: usize, raters: usize) -> PathBuf {
     fs::create_dir_all(folder.join("videos")).expect("a folder");
     let stimuli: Vec<Value> = (0..videos)

@@ -53,7 +53,7 @@ impl<'a> Judgements<'a> {
 }
 
 impl Judged<'_> {
-    /// How many raters gave each choice of a question.
+    /// Numbers of raters who gave each choice of a question.
     pub(super) fn counts(&self, question: &str, choices: &[&str]) -> Vec<usize> {
         let count = |choice: &&str| self.given(question).filter(|given| given.has(choice)).count();
         choices.iter().map(count).collect()

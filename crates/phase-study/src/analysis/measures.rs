@@ -60,7 +60,8 @@ fn alpha(units: &[Vec<usize>], seed: u64) -> Option<Estimate> {
     Some(Estimate { value, low: interval.low, high: interval.high })
 }
 
-/// Accuracies of goals and relations in the videos of each source, where the form asks for them and labels are known.
+/// Accuracies of goals and relations in the videos of each source, where the form asks for them and labels
+/// are known.
 pub(super) fn accuracy(
     judgements: &Judgements<'_>,
     sources: &[Option<&str>],
@@ -93,7 +94,7 @@ pub(super) fn accuracy(
     all
 }
 
-/// How far the judgements of a video are right.
+/// The share of a video's judgements that are right.
 struct Score {
     /// Share of judgements that are.
     share: f64,
@@ -143,7 +144,8 @@ fn likeness_of(judgements: &Judgements<'_>, source: &str) -> Vec<f64> {
 pub(super) fn likeness(judgements: &Judgements<'_>, sources: &[&str], seed: u64) -> Vec<Likeness> {
     let of = |source: &&str| {
         let means = likeness_of(judgements, source);
-        let (mean, sd) = (Estimate::of(&means, seed), standard_deviation(&means));
+        let mean = Estimate::of(&means, seed);
+        let sd = standard_deviation(&means);
         Likeness { source: (*source).into(), videos: means.len(), mean, sd }
     };
     sources.iter().map(of).collect()

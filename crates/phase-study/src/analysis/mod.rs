@@ -1,8 +1,9 @@
-//! What the answers say: who took part, how far raters agree, whether they are right, how human-like they find the events, and what
-//! interactions they see.
+//! Analysis of answers: who took part, how far raters agree, whether they are right, how human-like they find
+//! the events, and what interactions they see.
 //!
-//! Only raters count who have answered everything and passed the catch trials ([`Standing::Complete`]). Intervals are 95 % and over
-//! videos: of means and α by the percentile bootstrap, of shares of videos Wilson's.
+//! Only raters count who have answered everything and passed the catch trials ([`Standing::Complete`]).
+//! Intervals are 95 % and over videos: of means and α by the percentile bootstrap, of shares of videos
+//! Wilson's.
 
 mod judgements;
 mod measures;
@@ -22,7 +23,7 @@ use serde::Serialize;
 /// The value of the field `format` of an analysis.
 pub const REPORT_FORMAT: &str = "phase-study-report/1";
 
-/// How many raters came, and how far they got.
+/// Numbers of raters, by how far they got.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default, Serialize)]
 pub struct Raters {
     /// Those who came.
@@ -39,7 +40,7 @@ pub struct Raters {
     pub complete: usize,
 }
 
-/// How often videos were judged by raters who count.
+/// Numbers of judgements of videos, by raters who count.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default, Serialize)]
 pub struct Coverage {
     /// Videos of the study.
@@ -60,7 +61,6 @@ pub struct Agreement {
     /// The question.
     pub question: String,
     /// Of a question that wants several choices, the choice; whether it was given is what raters agree on.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub choice: Option<String>,
     /// α and its interval over videos; `None` where all raters said the same.
     pub alpha: Option<Estimate>,
@@ -71,7 +71,7 @@ pub struct Agreement {
 /// A share of items, and Wilson's interval.
 #[derive(Clone, Copy, PartialEq, Debug, Serialize)]
 pub struct Share {
-    /// How many.
+    /// Number of items that have the property.
     pub count: usize,
     /// Of how many.
     pub of: usize,
@@ -83,7 +83,7 @@ pub struct Share {
     pub high: f64,
 }
 
-/// How often judgements agree with labels.
+/// Agreement of judgements with labels.
 #[derive(Clone, PartialEq, Debug, Serialize)]
 pub struct Accuracy {
     /// `goals` (of both agents) or `relation`.
@@ -94,12 +94,12 @@ pub struct Accuracy {
     pub videos: usize,
     /// The mean over videos of the share of judgements that are right, of goals over both agents.
     pub mean: Option<Estimate>,
-    /// Labels (of goals one for each agent) that more raters named than anything else. A tie is no majority. Wilson's interval
-    /// takes the two agents of a video for independent.
+    /// Labels (of goals one for each agent) that more raters named than anything else. A tie is no majority.
+    /// Wilson's interval takes the two agents of a video for independent.
     pub majority: Share,
 }
 
-/// How human-like the events of a source are found.
+/// Human-likeness of the events of a source, as rated.
 #[derive(Clone, PartialEq, Debug, Serialize)]
 pub struct Likeness {
     /// The source.
@@ -139,15 +139,15 @@ pub struct Category {
 pub struct Categories {
     /// The source; all videos if `None`.
     pub source: Option<String>,
-    /// How many types some rater gave to some video.
+    /// Number of types that some rater gave to some video.
     pub given: usize,
-    /// How many types at least half of the raters gave to some video.
+    /// Number of types that at least half of the raters gave to some video.
     pub by_half: usize,
     /// All types, in the order of the form.
     pub categories: Vec<Category>,
 }
 
-/// What the answers say. What the form does not ask for is empty.
+/// The analysis of the answers to a study. Parts that the form does not ask for are empty.
 #[derive(Clone, PartialEq, Debug, Serialize)]
 pub struct Analysis {
     /// [`REPORT_FORMAT`].
@@ -156,19 +156,19 @@ pub struct Analysis {
     pub name: String,
     /// Its form.
     pub form: &'static str,
-    /// Who took part.
+    /// Numbers of raters, by how far they got.
     pub raters: Raters,
-    /// How often videos were judged.
+    /// Numbers of judgements of videos.
     pub coverage: Coverage,
-    /// How far raters agree.
+    /// Agreement of raters, by question.
     pub agreement: Vec<Agreement>,
     /// Whether they are right, where labels are known.
     pub accuracy: Vec<Accuracy>,
-    /// How human-like they find the events, by source.
+    /// Human-likeness of the events, by source.
     pub human_likeness: Vec<Likeness>,
     /// The differences between every two sources.
     pub human_likeness_differences: Vec<Difference>,
-    /// What interactions they see: in all videos, then by source if there are several.
+    /// Interactions that are seen: in all videos, then by source if there are several.
     pub interactions: Vec<Categories>,
 }
 
@@ -182,7 +182,8 @@ impl Analysis {
         if names.len() > 1 {
             sources.extend(names.iter().map(|name| Some(*name)));
         }
-        let (asks_goals, asks_interactions) = (config.form == Form::Goals, config.form == Form::Interactions);
+        let asks_goals = config.form == Form::Goals;
+        let asks_interactions = config.form == Form::Interactions;
         let likeness =
             if asks_goals { measures::likeness(&judgements, &names, config.seed) } else { Vec::new() };
         Self {
@@ -208,13 +209,13 @@ impl Analysis {
     }
 }
 
-/// How often videos were judged by raters who count.
+/// Counts the judgements of videos, by raters who count.
 #[must_use]
 pub fn coverage(config: &StudyConfig, raters: &[Rater]) -> Coverage {
     Judgements::of(config, raters).coverage(config.stimuli.len())
 }
 
-/// How many raters came, and how far they got.
+/// Counts the raters, by how far they got.
 #[must_use]
 pub fn count(config: &StudyConfig, raters: &[Rater]) -> Raters {
     let mut counts = Raters { joined: raters.len(), ..Raters::default() };

@@ -10,7 +10,8 @@ use phase_eval::Estimate;
 /// The analysis of a study with a title.
 #[must_use]
 pub fn document(title: &str, analysis: &Analysis) -> Document {
-    let (raters, coverage) = (&analysis.raters, &analysis.coverage);
+    let raters = &analysis.raters;
+    let coverage = &analysis.coverage;
     let mut blocks = vec![
         table(
             &["raters", "complete", "failed catch trials", "unfinished", "withdrawn", "declined"],

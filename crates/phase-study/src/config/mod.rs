@@ -10,8 +10,9 @@ use thiserror::Error;
 
 /// The value of the field `format` of configurations.
 pub const STUDY_FORMAT: &str = "phase-study/1";
-/// Minutes without a sign of a rater after which its places go to others, unless the configuration says otherwise.
-pub const MINUTES: u32 = 60;
+/// Minutes without a sign of a rater after which its places go to others, unless the configuration says
+/// otherwise.
+pub(crate) const MINUTES: u32 = 60;
 /// The members of the address that are kept, unless the configuration says otherwise: those of Prolific.
 pub const PARAMETERS: [&str; 3] = ["PROLIFIC_PID", "STUDY_ID", "SESSION_ID"];
 
@@ -26,22 +27,22 @@ pub enum ConfigError {
     Field(#[from] FieldError),
 }
 
-/// A video that is rated.
+/// A video that is rated, with its labels.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Stimulus {
     /// Its id, that of the event: 1 to 100 letters, digits, `-`, `_`, `.`.
     pub id: String,
     /// Its file, relative to that of the configuration, with `/`.
     pub video: String,
-    /// Where it comes from, such as `phase` or `human`.
+    /// Origin of the video, such as `phase` or `human`.
     pub source: String,
-    /// How many objects it shows, 0 to 2: which goals are offered.
+    /// Number of objects in the video, 0 to 2, on which the goals depend that are offered.
     pub objects: u8,
-    /// What is known of it.
+    /// Labels of the video, for accuracies.
     pub labels: Labels,
 }
 
-/// What is known of a video. What is not known does not count in accuracies.
+/// Labels of a video. Judgements without a label do not count in accuracies.
 #[derive(Clone, PartialEq, Debug, Default)]
 pub struct Labels {
     /// For each agent the answers about its goal that are right.
@@ -59,18 +60,19 @@ pub struct CatchTrial {
     pub id: String,
     /// Its file, as of a [`Stimulus`].
     pub video: String,
-    /// How many objects it shows, 0 to 2.
+    /// Number of objects in the video, 0 to 2.
     pub objects: u8,
-    /// By question the right choices: a rater has to give one of them, or, of a question that wants several, all of them.
+    /// By question the right choices: a rater has to give one of them, or, of a question that wants several,
+    /// all of them.
     pub expected: BTreeMap<String, BTreeSet<String>>,
 }
 
-/// What a rater is told at the end.
+/// The end of a study, as a rater sees it.
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
 pub struct Completion {
     /// A code that shows that one has finished.
     pub code: Option<String>,
-    /// Where to go then; https only.
+    /// Address to go to then; https only.
     pub url: Option<String>,
 }
 
@@ -81,21 +83,21 @@ pub struct StudyConfig {
     pub name: String,
     /// Its title.
     pub title: String,
-    /// What is asked.
+    /// The form with the questions about each video.
     pub form: Form,
     /// Paragraphs above the text of consent; perhaps none.
     pub introduction: Vec<String>,
-    /// What a rater agrees to: at least one paragraph.
+    /// Paragraphs that a rater agrees to, at least one.
     pub consent: Vec<String>,
-    /// What a rater is told before the first video: at least one paragraph.
+    /// Paragraphs that a rater reads before the first video, at least one.
     pub instructions: Vec<String>,
-    /// What a rater is asked about itself; perhaps nothing.
+    /// Questions about the rater, perhaps none.
     pub demographics: Vec<Question>,
     /// The videos, at least one.
     pub stimuli: Vec<Stimulus>,
     /// Those with a known answer; each rater sees all of them.
     pub catch_trials: Vec<CatchTrial>,
-    /// How many of them a rater may fail and still count.
+    /// Number of catch trials that a rater may fail and still count.
     pub catch_failures_allowed: u32,
     /// Raters wanted for each video, k.
     pub raters_per_video: u32,
@@ -107,7 +109,7 @@ pub struct StudyConfig {
     pub between_sources: bool,
     /// Raters that count, after whom the study is full.
     pub raters: u32,
-    /// What raters are told at the end.
+    /// The end of the study, as raters see it.
     pub completion: Completion,
     /// Members of the address that are kept; the first identifies the rater.
     pub parameters: Vec<String>,
@@ -159,8 +161,8 @@ impl StudyConfig {
     }
 }
 
-/// Raters that it takes until every video has had so many: for each group of so many videos, judgements wanted over videos a
-/// rater, rounded up.
+/// Raters that it takes until every video has had so many: for each group of so many videos, judgements
+/// wanted over videos a rater, rounded up.
 #[must_use]
 pub fn raters_needed(groups: &[usize], raters_per_video: u32, videos_per_rater: u32) -> u32 {
     let needed = |&videos: &usize| {

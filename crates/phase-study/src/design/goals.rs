@@ -3,12 +3,13 @@
 use phase_model::{AgentId, Attitude, Goal, Sign, words::Names};
 use std::collections::BTreeSet;
 
-/// The answers about the goals of both agents that are right. An agent who helps or hinders may be said to, or to have the goal that
-/// follows. `None` where the form has no words for a goal: to stay off a landmark.
+/// The answers about the goals of both agents that are right. An agent who helps or hinders may be said to,
+/// or to have the goal that follows. `None` where the form has no words for a goal: to stay off a landmark.
 #[must_use]
 pub fn known_goals(goals: [Goal; 2], attitudes: [Attitude; 2]) -> Option<[BTreeSet<String>; 2]> {
     let of = |agent: AgentId| {
-        let (goal, attitude) = (goals[agent.index()], attitudes[agent.index()]);
+        let goal = goals[agent.index()];
+        let attitude = attitudes[agent.index()];
         let mut words: BTreeSet<String> = physical(goal, agent).into_iter().collect();
         match attitude {
             Attitude::Help => words.insert("help".into()),

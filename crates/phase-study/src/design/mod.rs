@@ -14,12 +14,15 @@ use std::collections::BTreeSet;
 /// An experiment whose numbers a study takes over.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Experiment {
-    /// The paper's Experiment 1: 100 videos, 130 people, each video judged by 10, the 23 types of interaction.
+    /// The paper's Experiment 1: 100 videos, 130 people, each video judged by 10, the 23 types of
+    /// interaction.
     Interactions,
-    /// The second part of its Experiment 2: 100 videos of each of two sources, 186 people in two groups, goals, relation and
-    /// human-likeness. The paper does not say how many videos a person saw; here it is 20, and 18 or 19 people judge a video.
+    /// The second part of its Experiment 2: 100 videos of each of two sources, 186 people in two groups,
+    /// goals, relation and human-likeness. The paper does not say how many videos a person saw; here it is
+    /// 20, and 18 or 19 people judge a video.
     HumanLikeness,
-    /// Malik and Isik's experiment (2023): 100 videos, 20 for a person and 10 to 19 people for a video, the relation.
+    /// Malik and Isik's experiment (2023): 100 videos, 20 for a person and 10 to 19 people for a video, the
+    /// relation.
     Relations,
 }
 
@@ -37,7 +40,7 @@ impl Experiment {
         }
     }
 
-    /// What it asks.
+    /// The form that the study asks.
     #[must_use]
     pub const fn form(self) -> Form {
         match self {
@@ -70,7 +73,7 @@ pub struct Design {
     pub seed: u64,
 }
 
-/// How many people judge how many videos.
+/// Numbers of people and of videos.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Numbers {
     /// Raters wanted for each video.

@@ -30,7 +30,7 @@ impl Table {
         self.columns.push(Column { name: name.into(), description: description.into(), unit: None });
     }
 
-    /// The same with a unit.
+    /// Adds a column of numbers that have a unit.
     pub(super) fn measure(&mut self, name: &str, unit: &'static str, description: &str) {
         self.columns.push(Column { name: name.into(), description: description.into(), unit: Some(unit) });
     }
@@ -103,7 +103,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn any_text_is_read_back_and_none_is_a_formula(texts in prop::collection::vec(any::<String>(), 2..5)) {
+        fn texts_are_read_back_and_none_is_a_formula(texts in prop::collection::vec(any::<String>(), 2..5)) {
             let mut table = Table::default();
             (0..texts.len()).for_each(|k| table.column(format!("c{k}"), ""));
             table.row(texts.iter().cloned().map(Cell::Text).collect());

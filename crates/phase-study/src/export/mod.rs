@@ -1,7 +1,8 @@
 //! Answers for others: a Psych-DS dataset, and `phase-ratings/1`.
 //!
-//! Raters who withdrew or did not agree are in neither. Those who failed catch trials or have not finished are marked in the tables
-//! of the dataset and left out of the ratings. Raters are numbers; with what they came is only exported on demand.
+//! Raters who withdrew or did not agree are in neither. Those who failed catch trials or have not finished
+//! are marked in the tables of the dataset and left out of the ratings. Raters are numbers; with what they
+//! came is only exported on demand.
 
 mod csv;
 mod tables;
@@ -25,9 +26,9 @@ pub struct File {
     pub text: String,
 }
 
-/// The Psych-DS dataset of a study (<https://psych-ds.github.io/>): `dataset_description.json`, `README.md` and two tables in
-/// `data`, of answers and of raters; `docs/formats.md` has their columns. With `external_ids` the table of raters has with what
-/// they came.
+/// The Psych-DS dataset of a study (<https://psych-ds.github.io/>): `dataset_description.json`, `README.md`
+/// and two tables in `data`, of answers and of raters; `docs/formats.md` has their columns. With
+/// `external_ids` the table of raters has with what they came.
 #[must_use]
 pub fn psych_ds(config: &StudyConfig, forms: &Forms, raters: &[Rater], external_ids: bool) -> Vec<File> {
     let present: Vec<&Rater> = raters.iter().filter(|rater| rater.departure.is_none()).collect();
@@ -84,8 +85,8 @@ fn readme(config: &StudyConfig, answers: &str, raters: &str) -> String {
     )
 }
 
-/// How many raters who count called each video friendly, neutral and adversarial (`phase-ratings/1`), which `phase eval goals
-/// --ratings` reads. `None` if the form does not ask for relations.
+/// Numbers of raters who count and called each video friendly, neutral and adversarial (`phase-ratings/1`),
+/// which `phase eval goals --ratings` reads. `None` if the form does not ask for relations.
 #[must_use]
 pub fn ratings(config: &StudyConfig, raters: &[Rater]) -> Option<Value> {
     if config.form == Form::Interactions {

@@ -9,12 +9,12 @@ use thiserror::Error;
 pub struct StoreError {
     /// The file.
     pub file: PathBuf,
-    /// What the problem is.
+    /// The problem, which does not name the file.
     #[source]
     pub problem: StoreProblem,
 }
 
-/// What the problem with a file of answers is.
+/// A problem with a file of answers, in words that do not name the file.
 #[derive(Debug, Error)]
 pub enum StoreProblem {
     /// There is no such file.
@@ -42,7 +42,7 @@ pub enum StoreProblem {
     Damaged {
         /// The rater.
         rater: u64,
-        /// What is wrong.
+        /// The damage, in a clause.
         what: String,
     },
     /// The database fails, for example because the disk is full.

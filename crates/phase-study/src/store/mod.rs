@@ -1,7 +1,8 @@
 //! Answers in one SQLite file.
 //!
-//! Tables are only added to: no row is ever changed, and none is removed unless a rater leaves; triggers of the database see to it. An operation is one transaction,
-//! which is on the disk when it is acknowledged (`journal_mode=WAL`, `synchronous=FULL`).
+//! Tables are only added to: no row is ever changed, and none is removed unless a rater leaves; triggers of
+//! the database see to it. An operation is one transaction, which is on the disk when it is acknowledged
+//! (`journal_mode=WAL`, `synchronous=FULL`).
 
 mod error;
 mod read;
@@ -22,8 +23,8 @@ use std::{
 /// `PHst`, by which SQLite files of studies are known (`application_id`).
 const APPLICATION: i32 = 0x5048_7374;
 /// Version of the tables (`user_version`).
-pub const SCHEMA_VERSION: i32 = 1;
-/// How long a transaction waits for another program's.
+pub(crate) const SCHEMA_VERSION: i32 = 1;
+/// Time for which a transaction waits for another program's.
 const PATIENCE: Duration = Duration::from_secs(10);
 
 const CHECKPOINT: &str = "PRAGMA wal_checkpoint(TRUNCATE)";
@@ -48,7 +49,7 @@ const TABLES: [&str; 8] = ["study", "rater", "token", "departure", "origin", "pa
 /// Those whose rows go when their rater leaves.
 const OF_RATERS: [&str; 4] = ["answer", "trial", "page", "origin"];
 
-/// What makes the database itself refuse changes, whatever program makes them.
+/// Triggers by which the database itself refuses changes, whatever program makes them.
 fn triggers() -> String {
     let mut sql = String::new();
     for table in TABLES {
@@ -97,8 +98,8 @@ impl Store {
     /// Opens the answers of a study of this name and form, or makes an empty file for them.
     ///
     /// # Errors
-    /// [`StoreError`] if the file cannot be made or opened, is something else, is of another study, or was written by a newer
-    /// program.
+    /// [`StoreError`] if the file cannot be made or opened, is something else, is of another study, or was
+    /// written by a newer program.
     pub fn open(path: &Path, name: &str, form: &str) -> Result<Self, StoreError> {
         let flags = OpenFlags::SQLITE_OPEN_READ_WRITE
             | OpenFlags::SQLITE_OPEN_CREATE
@@ -134,7 +135,8 @@ impl Store {
         self.connection.busy_timeout(PATIENCE)?;
         let transaction = self.connection.transaction_with_behavior(TransactionBehavior::Immediate)?;
         let number = |pragma: &str| transaction.pragma_query_value(None, pragma, |row| row.get::<_, i32>(0));
-        let (application, version) = (number("application_id")?, number("user_version")?);
+        let application = number("application_id")?;
+        let version = number("user_version")?;
         let tables: i64 =
             transaction.query_row("SELECT count(*) FROM sqlite_schema", [], |row| row.get(0))?;
         if (application, version, tables) == (0, 0, 0) {
@@ -185,7 +187,8 @@ impl Store {
         Ok(result)
     }
 
-    /// Removes what was deleted from the file beside the database, too; where another program is reading, at the next occasion.
+    /// Removes what was deleted from the file beside the database, too; where another program is reading, at
+    /// the next occasion.
     pub(crate) fn forget(&mut self) -> Result<(), StoreError> {
         let done = self.connection.query_row(CHECKPOINT, [], |_| Ok(()));
         done.map_err(|error| StoreError::of(&self.path, error))

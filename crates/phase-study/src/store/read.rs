@@ -64,8 +64,10 @@ impl Writing<'_> {
             Ok(())
         })?;
         self.each(PAGES, "page.rater, page", one, |row| {
-            let (number, page, at, text): (i64, String, i64, Option<String>) =
-                (self.get(row, 0)?, self.get(row, 1)?, self.get(row, 2)?, self.get(row, 3)?);
+            let number: i64 = self.get(row, 0)?;
+            let page: String = self.get(row, 1)?;
+            let at: i64 = self.get(row, 2)?;
+            let text: Option<String> = self.get(row, 3)?;
             let number = number.unsigned_abs();
             let rater = raters.get_mut(&number).ok_or_else(|| self.damaged(number, "is missing".into()))?;
             match Page::ALL.into_iter().find(|known| known.name() == page) {
@@ -79,7 +81,8 @@ impl Writing<'_> {
             Ok(())
         })?;
         self.each(TRIALS, "trial.rater, trial.number", one, |row| {
-            let (number, k): (i64, i64) = (self.get(row, 0)?, self.get(row, 1)?);
+            let number: i64 = self.get(row, 0)?;
+            let k: i64 = self.get(row, 1)?;
             let number = number.unsigned_abs();
             let trial = self.trial(row, number)?;
             let rater = raters.get_mut(&number).ok_or_else(|| self.damaged(number, "is missing".into()))?;

@@ -29,25 +29,30 @@ const LONGEST_RESPONSE: i64 = 7 * 24 * 3600 * 1000;
 /// Most plays that are believed.
 const MOST_PLAYS: i64 = 10_000;
 
-/// What a rater gets who comes.
+/// The answer to a rater who comes.
 #[derive(Clone, PartialEq, Debug, Serialize)]
 pub struct Joined {
-    /// With this it shows who it is.
+    /// The rater's token, with which it shows who it is.
     pub token: Token,
-    /// Whether it had come before.
+    /// Whether the rater had come before.
     pub resumed: bool,
-    /// What it sees.
+    /// The first thing that the rater sees.
     pub stage: Stage,
 }
 
-/// What is given in a study, whatever raters do.
+/// The part of a study that is given, whatever raters do.
 #[derive(Clone, Copy)]
 struct Given<'a> {
     config: &'a StudyConfig,
     forms: &'a Forms,
 }
 
-/// A study with its answers.
+/// A study with its answers: the state machine that raters go through.
+///
+/// A rater comes ([`Study::join`]), agrees, says something of itself, reads the instructions and answers its
+/// trials, in this order. Each method takes one of these steps for the rater with a token and returns the
+/// [`Stage`] that follows; a step out of order is refused and changes nothing. Once a method returns, what it
+/// took is on the disk. Times are [`Millis`], given by the caller.
 #[derive(Debug)]
 pub struct Study {
     config: StudyConfig,
@@ -61,7 +66,8 @@ impl Study {
     /// A study and the answers that it has so far.
     ///
     /// # Errors
-    /// [`StudyError::Unknown`] if somebody is to see a video that the configuration does not have; [`StudyError::Store`].
+    /// [`StudyError::Unknown`] if somebody is to see a video that the configuration does not have;
+    /// [`StudyError::Store`].
     pub fn new(config: StudyConfig, forms: Forms, mut store: Store) -> Result<Self, StudyError> {
         for rater in store.raters()? {
             for trial in &rater.trials {
@@ -94,7 +100,8 @@ impl Study {
         Ok(self.store.raters()?)
     }
 
-    /// The file of a video, relative to that of the configuration, by its name in addresses. Names tell nothing of the video.
+    /// The file of a video, relative to that of the configuration, by its name in addresses. Names tell
+    /// nothing of the video.
     #[must_use]
     pub fn video(&self, name: &str) -> Option<&str> {
         self.videos.get(name).map(|(_, file)| file.as_str())
@@ -105,11 +112,13 @@ impl Study {
         self.videos.iter().map(|(name, (_, file))| (name.as_str(), file.as_str()))
     }
 
-    /// Lets a rater in. `parameters` are the members of the address with which it came; those that the study does not keep are
-    /// ignored. One who has come before with the same identity goes on where it was. It is known by `token` from then on.
+    /// Lets a rater in. `parameters` are the members of the address with which it came; those that the study
+    /// does not keep are ignored. One who has come before with the same identity goes on where it was. It is
+    /// known by `token` from then on.
     ///
     /// # Errors
-    /// [`StudyError::Field`] if a member of the address is missing, too long or not a line of text; [`StudyError::Store`].
+    /// [`StudyError::Field`] if a member of the address is missing, too long or not a line of text;
+    /// [`StudyError::Store`].
     pub fn join(
         &mut self,
         parameters: &BTreeMap<String, String>,
@@ -118,7 +127,8 @@ impl Study {
     ) -> Result<Joined, StudyError> {
         let kept = self.kept(parameters)?;
         let identity = self.config.parameters.first().and_then(|name| kept.get(name)).map(String::as_str);
-        let (config, forms) = (&self.config, &self.forms);
+        let config = &self.config;
+        let forms = &self.forms;
         self.store.write(|store| {
             let known = identity.map(|identity| store.rater_named(identity)).transpose()?.flatten();
             if known.is_none() && is_full(config, store, now)? {
@@ -152,7 +162,7 @@ impl Study {
         }
     }
 
-    /// What a rater sees.
+    /// The stage at which a rater is, which is all that its page shows.
     ///
     /// # Errors
     /// [`StudyError::Token`], [`StudyError::Store`].
@@ -160,7 +170,8 @@ impl Study {
         self.step(token, |_, _, _| Ok(()))
     }
 
-    /// Takes a rater's agreement, with which it gets its trials; or its refusal, after which nothing of it is kept.
+    /// Takes a rater's agreement, with which it gets its trials; or its refusal, after which nothing of it is
+    /// kept.
     ///
     /// # Errors
     /// [`StudyError::NotNow`] if the rater is past that; [`StudyError::Token`], [`StudyError::Store`].
@@ -197,8 +208,8 @@ impl Study {
     /// Takes what a rater says of itself, an object with a member for each question.
     ///
     /// # Errors
-    /// [`StudyError::Field`], [`StudyError::NotNow`], [`StudyError::OtherAnswer`] if it has said something else before;
-    /// [`StudyError::Token`], [`StudyError::Store`].
+    /// [`StudyError::Field`], [`StudyError::NotNow`], [`StudyError::OtherAnswer`] if it has said something
+    /// else before; [`StudyError::Token`], [`StudyError::Store`].
     pub fn demographics(&mut self, token: &Token, answer: &Value, now: Millis) -> Result<Stage, StudyError> {
         self.step(token, |Given { config, .. }, store, rater| {
             if rater.consented.is_none() || config.demographics.is_empty() {
@@ -230,13 +241,14 @@ impl Study {
         })
     }
 
-    /// Takes the answer to a trial: an object with `trial` (its number, from 1), `answer` (a member for each question),
-    /// `response_time` (ms) and `plays` (of the video to its end, at least 1). Once this returns it is on the disk. The same
-    /// answer to the same trial may come again.
+    /// Takes the answer to a trial: an object with `trial` (its number, from 1), `answer` (a member for each
+    /// question), `response_time` (ms) and `plays` (of the video to its end, at least 1). Once this returns
+    /// it is on the disk. The same answer to the same trial may come again.
     ///
     /// # Errors
-    /// [`StudyError::Field`], [`StudyError::NotNow`] for a trial that is not the next, [`StudyError::OtherAnswer`] for one that has
-    /// another answer; [`StudyError::Token`], [`StudyError::Store`].
+    /// [`StudyError::Field`], [`StudyError::NotNow`] for a trial that is not the next,
+    /// [`StudyError::OtherAnswer`] for one that has another answer; [`StudyError::Token`],
+    /// [`StudyError::Store`].
     pub fn answer(&mut self, token: &Token, submission: &Value, now: Millis) -> Result<Stage, StudyError> {
         self.step(token, |Given { config, forms }, store, rater| {
             let root = Field::root(submission);
@@ -281,7 +293,8 @@ impl Study {
         token: &Token,
         action: impl FnOnce(Given<'_>, &Writing<'_>, &Rater) -> Result<(), StudyError>,
     ) -> Result<Stage, StudyError> {
-        let (config, forms) = (&self.config, &self.forms);
+        let config = &self.config;
+        let forms = &self.forms;
         self.store.write(|store| {
             let number = store.rater_of(&token.digest())?.ok_or(StudyError::Token)?;
             action(Given { config, forms }, store, &store.rater(number)?)?;
@@ -311,8 +324,8 @@ fn questions(config: &StudyConfig, forms: &Forms, shown: &str, catch: bool) -> V
     forms.questions(config.form, objects.unwrap_or_default())
 }
 
-/// The name of a video in addresses: 16 hexadecimal digits from its id and the seed, from which neither the event nor its source
-/// can be told.
+/// The name of a video in addresses: 16 hexadecimal digits from its id and the seed, from which neither the
+/// event nor its source can be told.
 fn address(seed: u64, id: &str) -> String {
     let digest = Sha256::new().chain_update(seed.to_le_bytes()).chain_update(id).finalize();
     digest.iter().take(8).map(|byte| format!("{byte:02x}")).collect()

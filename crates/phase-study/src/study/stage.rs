@@ -1,4 +1,4 @@
-//! What a rater sees.
+//! Stages: everything that a rater's page shows, one after the other.
 
 use super::{address, questions};
 use crate::{
@@ -9,8 +9,8 @@ use crate::{
 };
 use serde::Serialize;
 
-/// The page that a rater sees. As JSON it has the member `page` (`consent`, `demographics`, `instructions`, `trial`, `done`,
-/// `declined`, `withdrawn`, `full`) and those of the page.
+/// The page that a rater sees. As JSON it has the member `page` (`consent`, `demographics`, `instructions`,
+/// `trial`, `done`, `declined`, `withdrawn`, `full`) and those of the page.
 #[derive(Clone, PartialEq, Debug, Serialize)]
 #[serde(tag = "page", rename_all = "lowercase")]
 pub enum Stage {
@@ -20,12 +20,12 @@ pub enum Stage {
         title: String,
         /// Paragraphs about it.
         introduction: Vec<String>,
-        /// What it agrees to.
+        /// The paragraphs that the rater agrees to.
         consent: Vec<String>,
     },
     /// It is asked about itself.
     Demographics {
-        /// What.
+        /// The questions about the rater.
         questions: Vec<Question>,
     },
     /// It is told what to do.
@@ -40,7 +40,7 @@ pub enum Stage {
         /// A code that shows it.
         #[serde(skip_serializing_if = "Option::is_none")]
         code: Option<String>,
-        /// Where to go.
+        /// Address to go to.
         #[serde(skip_serializing_if = "Option::is_none")]
         url: Option<String>,
     },
@@ -57,15 +57,15 @@ pub enum Stage {
 pub struct TrialPage {
     /// Its number, from 1.
     pub trial: usize,
-    /// How many there are.
+    /// Number of trials.
     pub trials: usize,
     /// The address of the video, relative to that of the study.
     pub video: String,
-    /// What is asked.
+    /// The questions about the video.
     pub questions: Vec<Question>,
 }
 
-/// What a rater sees.
+/// The stage at which a rater is.
 pub(super) fn of(config: &StudyConfig, forms: &Forms, rater: &Rater) -> Stage {
     match rater.departure {
         Some(Departure::Declined) => return Stage::Declined,

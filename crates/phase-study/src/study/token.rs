@@ -6,7 +6,8 @@ use sha2::{Digest, Sha256};
 /// Bytes of a token.
 const BYTES: usize = 16;
 
-/// With this a rater shows who it is: 128 random bits, written as 32 hexadecimal digits. Only a digest of it is stored.
+/// With this a rater shows who it is: 128 random bits, written as 32 hexadecimal digits. Only a digest of it
+/// is stored.
 #[derive(Clone, PartialEq, Eq)]
 pub struct Token([u8; BYTES]);
 
@@ -37,7 +38,7 @@ impl Token {
         self.0.iter().map(|byte| format!("{byte:02x}")).collect()
     }
 
-    /// What is stored of it.
+    /// The digest of the token, which is stored in its place.
     pub(super) fn digest(&self) -> [u8; 32] {
         Sha256::digest(self.0).into()
     }

@@ -49,14 +49,16 @@ fn addresses(study: &Study, files: &[(String, usize)]) -> Vec<(String, usize)> {
 }
 
 #[test]
-fn goals_relations_and_human_likeness() {
+fn right_goals_right_relations_and_human_likeness_are_counted() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut study = study(folder.path(), Form::Goals);
-    // Video 0: all right. Video 1: half of the raters call it neutral, which is no majority. Video 2: 3 of 4 are wrong. 3: all right.
+    // Video 0: all right. Video 1: half of the raters call it neutral, which is no majority. Video 2: 3 of 4
+    // are wrong. 3: all right.
     let analysis = answered(&mut study, 4, |rater, video| {
         let wrong = (video == 1 && rater < 2) || (video == 2 && rater < 3);
         json!({
-            "goal_0": if rater == 0 { "help" } else { "touch" }, "goal_1": if wrong { "hinder" } else { "none" },
+            "goal_0": if rater == 0 { "help" } else { "touch" },
+            "goal_1": if wrong { "hinder" } else { "none" },
             "relation": if wrong { "neutral" } else { "friendly" },
             "human_likeness": if video < 2 { "5" } else if rater % 2 == 0 { "2" } else { "3" },
         })
@@ -91,10 +93,11 @@ fn goals_relations_and_human_likeness() {
 }
 
 #[test]
-fn interactions_by_half_of_the_raters() {
+fn interactions_given_by_anybody_and_by_half_of_the_raters_are_counted() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut study = study(folder.path(), Form::Interactions);
-    // Chasing: half of the raters of videos 0 and 1. Helping: one rater of video 3. Meeting: everybody everywhere.
+    // Chasing: half of the raters of videos 0 and 1. Helping: one rater of video 3. Meeting: everybody
+    // everywhere.
     let analysis = answered(&mut study, 4, |rater, video| {
         let mut seen = vec!["meeting"];
         if video < 2 && rater < 2 {
@@ -122,7 +125,7 @@ fn interactions_by_half_of_the_raters() {
 }
 
 #[test]
-fn nobody_yet() {
+fn an_analysis_without_raters_is_empty() {
     for form in Form::ALL {
         let folder = tempfile::tempdir().expect("a folder");
         let mut study = study(folder.path(), form);

@@ -15,7 +15,10 @@ fn of_two_sources(mut document: Value, catch_trials: usize) -> Value {
     let half = stimuli.len() / 2;
     stimuli.iter_mut().take(half).for_each(|stimulus| stimulus["source"] = json!("human"));
     document["between_sources"] = json!(true);
-    let trial = |k: usize| json!({"id": format!("c{k}"), "video": format!("c{k}.mp4"), "expected": {"relation": "neutral"}});
+    let trial = |k: usize| {
+        let video = format!("c{k}.mp4");
+        json!({"id": format!("c{k}"), "video": video, "expected": {"relation": "neutral"}})
+    };
     document["catch_trials"] = (0..catch_trials).map(trial).collect();
     document
 }
@@ -23,7 +26,8 @@ fn of_two_sources(mut document: Value, catch_trials: usize) -> Value {
 proptest! {
     #[test]
     fn everybody_sees_different_videos_and_all_videos_are_seen_alike(
-        videos in 2_usize..30, k in 1_u32..8, each in 1_usize..12, catch in 0_usize..4, two in any::<bool>(), seed in 0_i64..1000,
+        videos in 2_usize..30, k in 1_u32..8, each in 1_usize..12, catch in 0_usize..4,
+        two in any::<bool>(), seed in 0_i64..1000,
     ) {
         let mut document = document(Form::Relation, videos, k, each.min(videos));
         document["seed"] = json!(seed);
@@ -48,7 +52,8 @@ proptest! {
             prop_assert_eq!(catches, config.catch_trials.len());
             for group in config.groups() {
                 let of_group: Vec<u32> = group.iter().map(|&k| load[k]).collect();
-                let (least, most) = (of_group.iter().min().expect("some"), of_group.iter().max().expect("some"));
+                let least = of_group.iter().min().expect("some");
+                let most = of_group.iter().max().expect("some");
                 prop_assert!(most - least <= 1, "{:?}", of_group);
             }
         }
@@ -58,7 +63,7 @@ proptest! {
 }
 
 #[test]
-fn seed_and_rater_decide() {
+fn assignments_differ_between_seeds_and_between_raters() {
     let mut document = document(Form::Relation, 50, 10, 20);
     let one = read(&document);
     document["seed"] = json!(8);
@@ -80,7 +85,8 @@ fn catch_trials_are_anywhere() {
 
 #[test]
 fn one_hundred_and_thirty_raters_can_judge_a_hundred_videos() {
-    // Experiment 1 of the paper: 1000 judgements by 130 people, so that some see 7 and some 8, or some videos have 11 raters.
+    // Experiment 1 of the paper: 1000 judgements by 130 people, so that some see 7 and some 8, or some videos
+    // have 11 raters.
     let mut document = document(Form::Interactions, 100, 10, 8);
     document["raters_per_video_at_most"] = json!(11);
     document["raters"] = json!(130);

@@ -33,7 +33,7 @@ fn read(design: &Design) -> StudyConfig {
 }
 
 #[test]
-fn the_numbers_of_the_published_experiments() {
+fn numbers_of_raters_and_videos_are_those_of_the_published_experiments() {
     let of = |experiment, stimuli| {
         let config = read(&Design { experiment, stimuli, catch_trials: Vec::new(), seed: 1 });
         (config.raters, config.raters_per_video, config.raters_per_video_at_most, config.videos_per_rater)
