@@ -40,7 +40,7 @@ pub struct LabelledEvent {
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Error)]
 #[error("the goal of agent {agent} has no class")]
 pub struct LabelError {
-    /// Whose goal.
+    /// The agent whose goal it is.
     pub agent: AgentId,
 }
 

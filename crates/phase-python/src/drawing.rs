@@ -7,7 +7,7 @@ use phase_render::{Frame, SceneRenderer, Style, VideoEncoder};
 use pyo3::prelude::*;
 use std::{fs::File, io::BufWriter, path::PathBuf};
 
-/// Draws a world or an event.
+/// Draws worlds and events, seen from above.
 #[pyclass(frozen, module = "phase_events._native")]
 pub(crate) struct Renderer {
     style: Style,
@@ -15,7 +15,7 @@ pub(crate) struct Renderer {
 
 #[pymethods]
 impl Renderer {
-    /// Pictures of so many pixels a side, 64 to 2000.
+    /// Pictures of `side` × `side` pixels, 64 to 2000. `PhaseError` for another side.
     #[new]
     fn new(side: u32) -> PyResult<Self> {
         let style = Style::with_side(side);
@@ -23,7 +23,8 @@ impl Renderer {
         Ok(Self { style })
     }
 
-    /// A world as it is now: (side, side, 3), 0 to 255.
+    /// A world as it is now: (side, side, 3), red, green, blue, 0 to 255. `PhaseError` if there is no such
+    /// world.
     fn world<'py>(
         &self,
         py: Python<'py>,
@@ -34,7 +35,8 @@ impl Renderer {
         self.array(py, &self.frame(physics, state)?)
     }
 
-    /// An event at a row, 0 to its number of steps: (side, side, 3).
+    /// An event at a row, 0 to its number of steps: (side, side, 3), red, green, blue, 0 to 255. `PhaseError`
+    /// for another row.
     fn event<'py>(
         &self,
         py: Python<'py>,
@@ -49,8 +51,8 @@ impl Renderer {
         self.array(py, &self.frame(&recording.scene.physics(), &state)?)
     }
 
-    /// Writes an event as an .mp4 with 20 frames a second: five a step, or for a recording, which has no
-    /// substeps, one a step shown five times.
+    /// Writes an event as an .mp4 (H.264) with 20 frames a second: five a step, or for a recording, which has
+    /// no substeps, one a step shown five times. `PhaseError` if the file cannot be written.
     fn video(&self, py: Python<'_>, event: PyRef<'_, Event>, path: PathBuf) -> PyResult<()> {
         let recording = event.recording.clone();
         py.detach(|| {

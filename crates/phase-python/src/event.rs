@@ -10,7 +10,7 @@ use phase_sim::{SimulationSettings, simulate_with};
 use pyo3::prelude::*;
 use std::{path::PathBuf, sync::Arc};
 
-/// An event: a scene and what happened in it.
+/// An event: a scene and the motion in it, simulated or recorded. Users see it as `phase_events.Event`.
 #[pyclass(frozen, module = "phase_events._native")]
 pub(crate) struct Event {
     pub(crate) recording: Arc<Recording>,
@@ -18,7 +18,8 @@ pub(crate) struct Event {
 
 #[pymethods]
 impl Event {
-    /// The events of a document in the format phase-events/1.
+    /// The events of a document in the format phase-events/1. `PhaseError` names the field and the rule if it
+    /// is none.
     #[staticmethod]
     fn list_from_json(py: Python<'_>, text: &str) -> PyResult<Vec<Self>> {
         let read = py.detach(|| from_json(text)).map_err(raise)?;
@@ -30,33 +31,38 @@ impl Event {
         to_json(std::slice::from_ref(&*self.recording)).map_err(raise)
     }
 
+    /// The name of the event, which no other event of its file has.
     #[getter]
     fn id(&self) -> &str {
         &self.recording.id
     }
 
+    /// The kind of event that its scene was made for.
     #[getter]
     fn kind(&self) -> &'static str {
         self.recording.scene.kind.name()
     }
 
+    /// The relation of both agents.
     #[getter]
     fn relation(&self) -> &'static str {
         self.recording.relation.name()
     }
 
+    /// The number of steps of 0.25 s.
     #[getter]
     fn steps(&self) -> usize {
         self.recording.trajectory.steps()
     }
 
+    /// The scene that it happened in.
     #[getter]
     fn scene(&self) -> Scene {
         Scene { scene: self.recording.scene.clone() }
     }
 
-    /// The rows of the trajectory: (steps + 1, entities, 5), columns x, y, vx, vy, angle. Row 0 is the
-    /// initial state, every other the mean over the substeps of its step.
+    /// The rows of the trajectory: (steps + 1, entities, 5), columns x, y (u), vx, vy (u/s), angle (rad). Row
+    /// 0 is the initial state, every other the mean over the substeps of its step.
     fn trajectory<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray3<f32>>> {
         let entities: Vec<_> = self.recording.trajectory.entities().collect();
         let row = |step: usize| entities.iter().map(|rows| rows[step].to_vec()).collect();
@@ -64,8 +70,8 @@ impl Event {
         PyArray3::from_vec3(py, &rows).map_err(raise)
     }
 
-    /// The bodies after every substep, 60 a second: (5 · steps, entities, 6); `None` for a recording, which
-    /// has none.
+    /// The bodies after every substep: (5 · steps, entities, 6), columns x, y (u), angle (rad), vx, vy (u/s),
+    /// angular velocity (rad/s); `None` for a recording, which has none.
     fn substeps<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyArray3<f32>>>> {
         let Some(simulation) = &self.recording.simulation else { return Ok(None) };
         let entities = self.recording.scene.physics().entities();
@@ -111,6 +117,7 @@ pub(crate) struct EventSource {
 
 #[pymethods]
 impl EventSource {
+    /// Opens a file or a folder, without reading its events. `PhaseError` if there are none.
     #[new]
     fn open(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
         let source = py.detach(|| EventInput::open(&path, &[], &Silent)).map_err(raise)?;
@@ -121,7 +128,8 @@ impl EventSource {
         self.source.len()
     }
 
-    /// Reads the event at an index.
+    /// Reads the event at an index, from 0 to the number of events less one. `PhaseError` names file, field
+    /// and rule if it is invalid.
     fn load(&self, py: Python<'_>, index: usize) -> PyResult<Event> {
         if index >= self.source.len() {
             return Err(raise(format!("there are {} events, and no event {index}", self.source.len())));
@@ -131,7 +139,8 @@ impl EventSource {
     }
 }
 
-/// Simulates a scene with two of PHASE's minds.
+/// Simulates a scene with two of PHASE's minds, for at most `max_steps` steps of 0.25 s. `parameters` is a
+/// JSON object of those that differ from the defaults. `PhaseError` for an invalid argument.
 #[pyfunction]
 #[pyo3(signature = (scene, seed, id, engine, max_steps, parameters))]
 pub(crate) fn simulate(
@@ -163,8 +172,7 @@ pub(crate) fn simulate(
     let (event, _) = found.map_err(raise)?;
     let settings = settings_value(&settings).map_err(raise)?;
     let recording = Recording::of_event(id, event, GENERATOR.into(), settings);
-    // What a file of it would be read as, so that an event is the same wherever it comes from, and its id is
-    // checked.
+    // An event is the same wherever it comes from: it is written and read. That checks its id, too.
     let text = to_json(&[recording]).map_err(raise)?;
     let mut read = Event::list_from_json(py, &text)?;
     read.pop().ok_or_else(|| raise("the event cannot be read back"))

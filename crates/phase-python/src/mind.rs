@@ -18,7 +18,7 @@ use pyo3::prelude::*;
 use rayon::prelude::*;
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// The mind of one agent, with its belief.
+/// The mind of one agent, with its belief, of the kind `phase`. Users see it as `phase_events.Mind`.
 #[pyclass(frozen, module = "phase_events._native")]
 pub(crate) struct Mind {
     agent: AgentId,
@@ -61,6 +61,8 @@ impl MindState {
 
 #[pymethods]
 impl Mind {
+    /// The mind of agent 0 or 1 in a scene. `parameters` is a JSON object of those that differ from the
+    /// defaults. `PhaseError` for an invalid argument, and for parameters of another kind of mind.
     #[new]
     #[pyo3(signature = (scene, agent, seed, parameters))]
     fn new(scene: PyRef<'_, Scene>, agent: usize, seed: u64, parameters: Option<&str>) -> PyResult<Self> {
@@ -86,8 +88,9 @@ impl Mind {
         Ok(Self { agent, entities, state: Arc::new(Mutex::new(state)) })
     }
 
-    /// Observes and decides; `action` is what the agent did in fact since its last decision, if not what it
-    /// decided.
+    /// Observes and decides; the number of the action. `observation` is (OBSERVATION_SIZE,); `action` is the
+    /// one that the agent took since its last decision, if it is another than was decided. `PhaseError` for an
+    /// invalid action, and for numbers that are no observation of this agent.
     #[pyo3(signature = (observation, action))]
     fn decide(
         &self,
@@ -103,7 +106,8 @@ impl Mind {
         decided.map(Action::index).map_err(raise)
     }
 
-    /// The possible worlds, equally likely: (particles, entities, 6); `None` before the first decision.
+    /// The possible worlds, equally likely: (particles, entities, 6), columns x, y (u), angle (rad), vx, vy
+    /// (u/s), angular velocity (rad/s); `None` before the first decision.
     fn particles<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyArray3<f32>>>> {
         let state = self.state.lock().unwrap_or_else(PoisonError::into_inner);
         let Some(agent) = &state.agent else { return Ok(None) };
@@ -126,8 +130,8 @@ impl Mind {
     }
 }
 
-/// Lets several minds decide at once, each from a row of the observations, (N, OBSERVATION_SIZE). `threads`
-/// at most decide at the same time.
+/// Lets N minds decide at once, each from a row of the observations, (N, OBSERVATION_SIZE); the numbers of
+/// their actions. At most `threads` of them decide at the same time. `PhaseError` for an invalid row.
 #[pyfunction]
 pub(crate) fn decide_all<'py>(
     py: Python<'py>,

@@ -14,7 +14,7 @@ use std::sync::{Mutex, PoisonError};
 /// Columns of a row of an event: x, y (u), vx, vy (u/s), angle (rad).
 const COLUMNS: usize = 5;
 
-/// Watches an event row by row.
+/// SIMPLE while an event is watched, row by row. Users see it as `phase_events.Observer`.
 #[pyclass(frozen, name = "Observer", module = "phase_events._native")]
 pub(crate) struct PythonObserver {
     simple: Simple,
@@ -24,7 +24,9 @@ pub(crate) struct PythonObserver {
 
 #[pymethods]
 impl PythonObserver {
-    /// Begins with the first row, (entities, 5). Of the scene only walls and sizes are looked at.
+    /// Begins with the first row, (entities, 5): x, y (u), vx, vy (u/s), angle (rad). Of the scene only walls
+    /// and sizes are looked at. [`push`](Self::push) simulates at most `decisions` decisions of minds for a
+    /// row; the default is that of [`Budget`]. `PhaseError` for an invalid row.
     #[new]
     fn new(
         py: Python<'_>,
@@ -45,14 +47,16 @@ impl PythonObserver {
         Ok(Self { simple, observer: Mutex::new(observer), entities })
     }
 
-    /// Watches the next row and answers with limited effort, as JSON.
+    /// Watches the next row, 0.25 s later, and answers with limited effort, as JSON. `PhaseError` for an
+    /// invalid row.
     fn push(&self, py: Python<'_>, row: PyReadonlyArray2<'_, f32>) -> PyResult<String> {
         let row = read_row(&row, self.entities)?;
         let inference = py.detach(|| self.observer.lock().unwrap_or_else(PoisonError::into_inner).push(row));
         self.answer(&inference.map_err(raise)?)
     }
 
-    /// The answer of a batch inference of the rows seen so far, as JSON.
+    /// The answer of a batch inference of the rows seen so far, as JSON. `PhaseError` before a step was
+    /// watched.
     fn inference(&self, py: Python<'_>) -> PyResult<String> {
         let inference = py.detach(|| {
             let mut observer = self.observer.lock().unwrap_or_else(PoisonError::into_inner);

@@ -38,7 +38,8 @@ pub(crate) fn observed(event: &Event, steps: Option<usize>) -> PyResult<Observed
     Ok(steps.map_or_else(|| observed.clone(), |steps| observed.prefix(steps)))
 }
 
-/// Infers goals and relation of an event from its trajectories; the answer as JSON.
+/// Infers goals and relation of an event from its trajectories, or from the first `steps` steps of them; the
+/// answer as JSON. `PhaseError` for an unknown method, and for an event without motion.
 #[pyfunction]
 #[pyo3(signature = (event, method, seed, steps))]
 pub(crate) fn infer(
@@ -60,7 +61,8 @@ pub(crate) fn infer(
     serde_json::to_string(&json!({ "answer": answer, "details": details })).map_err(raise)
 }
 
-/// Predicts the next steps of an event of which `watched` steps are known; the answer as JSON.
+/// Predicts the next steps of an event of which `watched` steps are known; the answer as JSON, positions in
+/// u. `PhaseError` for an unknown method.
 #[pyfunction]
 pub(crate) fn forecast(
     py: Python<'_>,
@@ -85,7 +87,7 @@ pub(crate) fn forecast(
     serde_json::to_string(&answer).map_err(raise)
 }
 
-/// Names of the methods for `infer` and for `forecast`.
+/// The names of the methods for `infer`, and of those for `forecast`.
 #[pyfunction]
 pub(crate) fn methods() -> (Vec<&'static str>, Vec<&'static str>) {
     (named::recognisers(), named::FORECASTERS.to_vec())

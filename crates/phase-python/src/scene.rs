@@ -11,7 +11,8 @@ use phase_sampler::{Contrast, ContrastRequest, Part, Request, SampleError, Stage
 use pyo3::prelude::*;
 use rand::RngExt;
 
-/// A valid scene.
+/// A valid scene: walls, bodies, goals and attitudes. `phase_events.scene` makes one of a description,
+/// `phase_events.sample_scene` draws one. It does not change.
 #[pyclass(frozen, module = "phase_events._native")]
 pub(crate) struct Scene {
     pub(crate) scene: ModelScene,
@@ -19,7 +20,8 @@ pub(crate) struct Scene {
 
 #[pymethods]
 impl Scene {
-    /// Reads a scene as JSON, as it stands in a file of events.
+    /// Reads a scene as JSON, as it stands in a file of events. `PhaseError` names the field and the rule if
+    /// it is none.
     #[staticmethod]
     fn from_json(text: &str) -> PyResult<Self> {
         let scene = ModelScene::from_json(text).map_err(raise)?;
@@ -27,7 +29,8 @@ impl Scene {
         Ok(Self { scene })
     }
 
-    /// Draws a scene: of a kind and variant, or of any of the six kinds.
+    /// Draws a scene of a kind and a variant, of a kind, or of any of the six kinds, from a seed of 64 bits.
+    /// `PhaseError` for unknown names, and if no scene was found.
     #[staticmethod]
     #[pyo3(signature = (kind, variant, seed))]
     fn sample(py: Python<'_>, kind: Option<&str>, variant: Option<&str>, seed: u64) -> PyResult<Self> {
@@ -36,7 +39,7 @@ impl Scene {
     }
 
     /// Draws a scene as a preset has them: of a random one of its slots, with that slot's variant, goals and
-    /// layouts.
+    /// layouts. `PhaseError` for an unknown preset or an invalid file, and if no scene was found.
     #[staticmethod]
     fn sample_preset(py: Python<'_>, preset: &str, seed: u64) -> PyResult<Self> {
         let preset = plan::preset(preset).map_err(raise)?;
@@ -66,7 +69,7 @@ impl Scene {
         Ok(Self { scene: scene.map_err(|error: SampleError| raise(error))? })
     }
 
-    /// The scene as JSON.
+    /// The scene as JSON, as it stands in a file of events.
     fn to_json(&self) -> PyResult<String> {
         self.scene.to_json().map_err(raise)
     }
@@ -76,19 +79,20 @@ impl Scene {
         py.import("json")?.call_method1("loads", (self.to_json()?,))
     }
 
-    /// Name of the kind of event that it was made for.
+    /// The kind of event that it was made for: `helping`, `hindering`, `chasing`, `competing`,
+    /// `collaborating` or `independent`.
     #[getter]
     const fn kind(&self) -> &'static str {
         self.scene.kind.name()
     }
 
-    /// Name of the relation that its goals and attitudes have.
+    /// The relation that its goals and attitudes make: `friendly`, `adversarial` or `neutral`.
     #[getter]
     fn relation(&self) -> &'static str {
         self.scene.relation().name()
     }
 
-    /// Number of bodies.
+    /// The number of bodies: two agents and up to two objects.
     #[getter]
     fn entity_count(&self) -> usize {
         self.scene.physics().entities().count()

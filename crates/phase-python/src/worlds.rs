@@ -14,7 +14,7 @@ use phase_sim::{Engine, Episode, View, vector::SIZE};
 use pyo3::prelude::*;
 use rayon::prelude::*;
 
-/// Several worlds, each with a scene of its own.
+/// Several worlds, each with a scene of its own, that are stepped together.
 #[pyclass(module = "phase_events._native")]
 pub(crate) struct Worlds {
     episodes: Vec<Episode>,
@@ -34,6 +34,8 @@ struct Row<'a> {
 
 #[pymethods]
 impl Worlds {
+    /// Worlds at the start of their scenes. Agents observe everything if `omniscient`. At most `threads`
+    /// worlds are stepped at the same time. `PhaseError` for an unknown engine.
     #[new]
     #[pyo3(signature = (scenes, engine, omniscient, threads))]
     fn new(
@@ -59,7 +61,7 @@ impl Worlds {
         self.episodes.len()
     }
 
-    /// Puts a scene into one of the worlds, at its start.
+    /// Puts a scene into one of the worlds, at its start. `PhaseError` if there is no such world.
     fn reset(&mut self, world: i64, scene: PyRef<'_, Scene>) -> PyResult<()> {
         let index = self.index(world)?;
         self.episodes[index] = Episode::new(&scene.scene, self.engine);
@@ -67,7 +69,7 @@ impl Worlds {
     }
 
     /// Writes the observations of both agents, (N, 2, OBSERVATION_SIZE), and whether their goals hold, (N,
-    /// 2): of these worlds, or of all.
+    /// 2): of these worlds, or of all. `PhaseError` for arrays of other shapes.
     #[pyo3(signature = (observations, achieved, worlds=None))]
     fn observe(
         &self,
@@ -97,7 +99,8 @@ impl Worlds {
     }
 
     /// Lets both agents of each world act, (N, 2) actions, and writes observations as `observe`, rewards (N,
-    /// 2) of Equation 1, and whether the goals hold. Nothing happens if an action is invalid.
+    /// 2) of Equation 1, and whether the goals hold. `PhaseError` for an invalid action, of which none is
+    /// carried out, and for arrays of other shapes.
     fn step(
         &mut self,
         py: Python<'_>,
@@ -148,7 +151,8 @@ impl Worlds {
         Ok(())
     }
 
-    /// The bodies of a world: (entities, 6), columns x, y, angle, vx, vy, angular velocity.
+    /// The bodies of a world: (entities, 6), columns x, y (u), angle (rad), vx, vy (u/s), angular velocity
+    /// (rad/s).
     fn bodies<'py>(&self, py: Python<'py>, world: i64) -> PyResult<Bound<'py, PyArray2<f32>>> {
         let episode = self.episode(world)?;
         let rows: Vec<Vec<f32>> = episode

@@ -5,6 +5,9 @@
 //! `phase-world`, or on request in `phase-forward` ([`Engine`]); the agents' observations, beliefs and
 //! searches are computed in the same way for both.
 //!
+//! Whoever wants to choose the actions, for example to train a learner, plays an [`Episode`] step by step: it
+//! has rewards and observations, these also as vectors of numbers ([`vector`]).
+//!
 //! Key design decision: every random stream belongs to one agent and one purpose. The same seed reproduces
 //! the same event bit for bit, and an agent's beliefs can be recomputed from the recorded trajectory without
 //! planning ([`beliefs()`]). An agent draws from its search stream once per decision, to seed a separate

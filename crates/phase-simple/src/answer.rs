@@ -4,7 +4,11 @@ use crate::{Hypothesis, ImaginedAgents, Posterior, ReportModel, impression::Impr
 use phase_model::Judgement;
 use phase_statistics::{log_softmax, log_sum_exp};
 
-/// The result of an inference.
+/// The result of an inference: a posterior over hypotheses, averaged over the kinds of minds.
+///
+/// [`infer`](crate::infer), [`explain`](crate::explain) and [`Observer`](crate::Observer) give it.
+/// [`judgement`](Self::judgement) makes the answer of a method of it, and [`futures`](crate::futures) a
+/// forecast.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Inference {
     /// The posterior, averaged over the kinds of minds.

@@ -8,7 +8,15 @@ use crate::{
 use phase_model::{AGENT_COUNT, AgentId, Goal, Strength};
 use phase_pomcp::PomcpError;
 
-/// Decisions that an inference may spend.
+/// Decisions of simulated minds that an inference may spend. One takes some milliseconds.
+///
+/// ```
+/// use phase_simple::Budget;
+///
+/// // Whoever watches an event as it happens limits what a row may take.
+/// let budget = Budget { decisions: Some(20) };
+/// assert_ne!(budget, Budget::UNLIMITED);
+/// ```
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub struct Budget {
     /// Decisions of simulated minds left; `None` for as many as it takes.
@@ -99,7 +107,8 @@ pub struct IntentEvidence {
 }
 
 impl IntentEvidence {
-    /// None yet. `others` is the goal that the other agent pursues if the intent does not say.
+    /// Evidence of no decision yet on an agent's intent. `others` is the goal that the other agent pursues if
+    /// the intent does not say.
     ///
     /// # Errors
     /// Invalid parameters of the agents' search.
@@ -114,9 +123,10 @@ impl IntentEvidence {
         Ok(Self { agent, run, chances: Vec::new() })
     }
 
-    /// Catches up with the event: lets the mind of the intent decide in every state that is looked at.
-    /// `likelihoods` have caught up with the same event. Whether it has caught up: it stops when the budget
-    /// is spent.
+    /// Lets the mind of the intent decide in every state that is looked at and is not yet part of the
+    /// evidence. `likelihoods` must have caught up with the same event.
+    ///
+    /// It stops when the budget is spent, and says whether it has caught up with the event.
     ///
     /// # Errors
     /// Invalid parameters of the agents' search.
@@ -141,7 +151,7 @@ impl IntentEvidence {
         self.chances.truncate(likelihoods.decisions_before(rows));
     }
 
-    /// The chance of what the agent did, by decision.
+    /// The chance of the agent's action at each decision that was looked at.
     #[must_use]
     pub fn chances(&self) -> &[Chance] {
         &self.chances

@@ -14,8 +14,10 @@ use rand::RngExt;
 /// Iterations of Weiszfeld's algorithm.
 const ROUNDS: usize = 30;
 
-/// Settings of the combination of futures. The inverse temperature, the error rate and the least weight were
-/// fitted by `cargo xtask-networks fit-forecast`.
+/// Settings of the combination of futures into a forecast.
+///
+/// The inverse temperature, the error rate and the least weight were fitted by `cargo xtask-networks
+/// fit-forecast`; the defaults are the fitted values.
 #[derive(Clone, Copy, PartialEq, Debug, serde::Serialize, serde::Deserialize)]
 pub struct ForecastSettings {
     /// Number of most likely hypotheses to simulate; at least 1.
@@ -62,6 +64,17 @@ impl ForecastSettings {
 }
 
 /// Simulated futures of an event with their weights.
+///
+/// ```
+/// use phase_model::Vec2;
+/// use phase_simple::Futures;
+///
+/// // One entity, one step: it goes to the right three times as likely as to the left.
+/// let to = |x| vec![vec![Vec2::new(x, 0.0)]];
+/// let futures = Futures::new(vec![(to(1.0), 3.0), (to(-1.0), 1.0)]);
+/// assert!(futures.median()[0][0].x > 0.9);
+/// assert_eq!(futures.draw(4, 1).iter().filter(|future| future[0][0].x > 0.0).count(), 3);
+/// ```
 #[derive(Clone, PartialEq, Debug)]
 pub struct Futures {
     /// Futures and their weights, above 0 and not normalised.
@@ -71,7 +84,7 @@ pub struct Futures {
 }
 
 impl Futures {
-    /// Futures of one shape with their weights. It is that of the first one.
+    /// Futures with their weights, above 0. All have the shape of the first one: entities × steps.
     #[must_use]
     pub fn new(paths: Vec<(Forecast, f64)>) -> Self {
         let first = paths.first().map(|(path, _)| path);
@@ -125,10 +138,11 @@ impl Futures {
     }
 }
 
-/// The prediction of one hypothesis.
+/// The predictions of one hypothesis: of steps that were observed, which tell how good they are, and of those
+/// that were not.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Continuation {
-    /// Its posterior probability.
+    /// Posterior probability of the hypothesis, 0 to 1.
     pub weight: f64,
     /// Displacement errors of its hindcasts (u), in the order of [`ForecastSettings::starts`].
     pub hindcast_errors: Vec<f64>,
@@ -137,8 +151,8 @@ pub struct Continuation {
 }
 
 impl Continuation {
-    /// The weight of its futures together, on a logarithmic scale and not normalised: the posterior's, and
-    /// what the hindcasts say.
+    /// The weight of its futures together, on a logarithmic scale (nat) and not normalised: the posterior
+    /// times the evidence of the hindcasts.
     #[must_use]
     pub fn log_weight(&self, settings: &ForecastSettings) -> f64 {
         let error = mean(&self.hindcast_errors).unwrap_or_default();
@@ -224,7 +238,10 @@ pub fn hindcast_error(forecast: &Forecast, observed: &ObservedEvent, start: usiz
     sum / count.max(1) as f64
 }
 
-/// The futures of the most likely hypotheses. `None` if `tick` cancelled it.
+/// The futures of the most likely hypotheses of a posterior, for `steps` steps after the last one observed;
+/// `None` if `tick` cancelled it.
+///
+/// [`Simple`](crate::Simple) forecasts with [`Futures::median`] and [`Futures::draw`] of them.
 ///
 /// # Errors
 ///

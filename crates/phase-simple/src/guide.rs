@@ -30,7 +30,8 @@ impl Default for Guidance {
     }
 }
 
-/// A network that guides inverse planning.
+/// A network that guides inverse planning: only the intents that it holds for likely are simulated, and its
+/// guess enters the posterior.
 #[derive(Clone, Debug)]
 pub struct Guide {
     /// The network, which observers share.

@@ -7,7 +7,23 @@ use phase_model::{
 };
 use serde::{Deserialize, Serialize};
 
-/// Goals, attitudes and strengths of both agents.
+/// Goals, attitudes and strengths of both agents: Y of the paper, the explanation that an inference weighs.
+///
+/// ```
+/// use phase_model::{AgentId, Attitude, Goal, LandmarkId, Relation, Sign, Strength};
+/// use phase_simple::Hypothesis;
+///
+/// let goal = Goal::AgentOnLandmark {
+///     agent: AgentId::ZERO,
+///     landmark: LandmarkId::TOP_LEFT,
+///     sign: Sign::Positive,
+/// };
+/// let attitudes = [Attitude::Neutral, Attitude::Hinder];
+/// let hypothesis = Hypothesis::new([goal; 2], attitudes, [Strength::ALL[0]; 2]);
+/// // Agent 1 wants the opposite of what agent 0 wants.
+/// assert_eq!(hypothesis.goals[1], goal.negated());
+/// assert_eq!(hypothesis.relation(), Relation::Adversarial);
+/// ```
 ///
 /// The goal of an agent that helps or hinders is the other's, negated for a hinderer: labels are defined this
 /// way, and an own goal of a social agent would make no difference (Equation 1).
@@ -55,13 +71,13 @@ impl Hypothesis {
         -libm::log(attitudes) - free_goals * libm::log(goals as f64) - strengths
     }
 
-    /// The relation that it implies.
+    /// The relation that goals and attitudes imply.
     #[must_use]
     pub fn relation(&self) -> Relation {
         Relation::of(self.goals, self.attitudes)
     }
 
-    /// The maximum forces of both (N).
+    /// The maximum force of each agent (N).
     #[must_use]
     pub fn max_forces(&self) -> [f32; AGENT_COUNT] {
         self.strengths.map(Strength::max_force)

@@ -24,8 +24,11 @@ pub struct Cues<'a> {
     pub guide: Option<Guide>,
 }
 
-/// Infers what explains an event. The same seed gives the same result. `tick` is called about once a
-/// simulation; if it breaks, the result is `None`.
+/// Infers what explains a prepared event, by the algorithm of the settings.
+///
+/// One seed gives one result, on every machine. `tick` is called about once a simulation; if it breaks, the
+/// result is `None`. [`Simple`](crate::Simple) calls this with the settings of a named variant and the models
+/// that come with the program.
 ///
 /// # Errors
 ///
@@ -82,7 +85,8 @@ fn run_chains(
     Ok(Some(Inference { posterior, minds, impression: None, accepted, simulated: simulations.count() }))
 }
 
-/// Prepares an event and infers what explains it.
+/// Prepares an event and infers what explains it, without a guide: [`PreparedEvent::new`] and [`infer`] in one
+/// call that cannot be cancelled. The front page has an example.
 ///
 /// # Errors
 /// Invalid parameters of the agents' search.

@@ -3,7 +3,7 @@
 use crate::{Hypothesis, hypothesis::physical_goals};
 use phase_model::{AGENT_COUNT, AgentId, Attitude, Goal, Strength};
 
-/// Intents of an agent with ln P(motion | intent) of its part of the motion.
+/// Intents of an agent with ln P(motion | intent) of its part of the motion (nat).
 pub type WeightedIntents = Vec<(Intent, f64)>;
 
 /// One agent's intent: its own goal, or helping or hindering the other with one of the other's goals.

@@ -30,6 +30,23 @@ pub enum ObserverError {
 
 /// Watches an event row by row, and infers after each row what explains it.
 ///
+/// ```
+/// use phase_event::ObservedEvent;
+/// use phase_model::{Body, Layout, Size, Vec2};
+/// use phase_simple::{Budget, Simple};
+///
+/// let row = |x| {
+///     let places = [Vec2::new(x, 6.0), Vec2::new(8.5, 19.5), Vec2::ZERO, Vec2::ZERO];
+///     places.map(|place| Body::at_rest(place, 0.0))
+/// };
+/// let start = ObservedEvent::new(Layout::new(0, None)?, [Size::Small; 2], Vec::new(), vec![row(23.5)])?;
+/// let mut observer = Simple::bundled()?.observer(&start, 1)?;
+/// observer.set_budget(Budget { decisions: Some(1) });
+/// let inference = observer.push(row(23.4))?;
+/// assert!((inference.posterior.hypotheses.iter().map(|(_, p)| p).sum::<f64>() - 1.0).abs() < 1e-9);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
 /// Conclusions about earlier steps are taken back where later ones contradict them, so
 /// [`Observer::inference`] gives the answer of [`infer`](crate::infer) for the rows seen so far, bit for bit.
 /// [`Observer::push`] gives the same within a budget, so that an event can be watched as it happens; the two

@@ -7,7 +7,11 @@ use phase_model::{
 use phase_statistics::log_softmax;
 use std::collections::BTreeMap;
 
-/// Weighted hypotheses; the weights are not negative and sum to 1 unless there are none.
+/// Hypotheses with their probabilities given the motion: weights that are not negative and sum to 1, unless
+/// there are none.
+///
+/// All questions are answered from the joint distribution: goals, attitudes and relations that are likely one
+/// by one need not be likely together.
 #[derive(Clone, PartialEq, Debug, Default)]
 pub struct Posterior {
     /// Different hypotheses with their weights, heaviest first.
@@ -71,7 +75,7 @@ impl Posterior {
         }
     }
 
-    /// Everything that Task 1 asks for.
+    /// The answer to Task 1: both agents' goals, their relation and their roles, without predicted reports.
     #[must_use]
     pub fn judgement(&self) -> Judgement {
         let goals: [Vec<(Goal, f64)>; AGENT_COUNT] = AgentId::ALL.map(|agent| self.goals(agent));

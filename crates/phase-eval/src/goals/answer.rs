@@ -20,7 +20,7 @@ pub enum InvalidAnswer {
     /// A goal's probability is invalid.
     #[error("`goals[{agent}][{place}].p` must be a number from 0 to 1")]
     Goal {
-        /// Whose goal.
+        /// The agent whose goal it is.
         agent: AgentId,
         /// Its place in the list.
         place: usize,

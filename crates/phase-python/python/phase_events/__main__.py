@@ -6,7 +6,10 @@ from . import PhaseError, run
 
 
 def main():
-    """Runs the command line; exit code 0, 2 for a failure, 130 for an interruption."""
+    """Runs the program ``phase`` with the arguments of this process.
+
+    The exit code is 0, 2 after a failure, whose sentence is printed on stderr, or 130 after an interruption.
+    """
     try:
         run(*sys.argv[1:])
     except PhaseError as error:

@@ -11,33 +11,44 @@ from .events import save_events
 
 
 def run(*arguments):
-    """Runs a command of the program ``phase``: ``run("verify", "out/demo-seed1")``. Progress goes to stderr, results to stdout.
+    """Runs a command of the program ``phase``. Progress goes to stderr, results to stdout.
+
+    >>> run("verify", "out/demo-seed1")   # doctest: +SKIP
+
+    Args:
+        arguments: the command and its options, each as text, a number or a path.
 
     Raises:
-        PhaseError: with the sentence of the command line.
+        PhaseError: if the command fails, with the sentence of the command line.
         KeyboardInterrupt: after the current step; what is finished is kept, and the same command goes on.
     """
     _native.run([os.fspath(argument) if isinstance(argument, os.PathLike) else str(argument) for argument in arguments])
 
 
 def generate(preset="demo", events=None, out=None, *, shard=None, seed=None, video=True, jobs=None, quiet=True, options=()):
-    """Generates a dataset, as ``phase gen-dataset``.
+    """Generates a dataset in a folder, as ``phase gen-dataset`` does.
+
+    >>> generate("demo", 6, "out/demo", video=False)   # doctest: +SKIP
+
+    One preset, seed and number of events make the same bytes on every machine, with any number of jobs and shards.
 
     Args:
         preset: ``demo``, ``phase-500``, ``phase-pairs``, ``phase-training``, or a file in the format ``phase-preset/3``.
-        events: how many; ``None`` for the preset's number.
-        out: its folder; an interrupted run in it goes on.
+        events: the number of events, at least 1; ``None`` for the preset's.
+        out: the folder of the dataset. It is made; an interrupted run in it goes on.
         shard: ``(k, n)`` for the k-th of n parts, from 1, to be combined by ``run("merge", …)``.
-        seed: ``None`` for the preset's.
+        seed: a whole number from 0 to 2**64 - 1; ``None`` for the preset's.
         video: whether to write videos and the page.
-        jobs: how many events at once; ``None`` for one a core.
-        options: further options of the command line.
+        jobs: the number of events that are simulated at once; ``None`` for one a core.
+        quiet: whether to print neither progress nor results.
+        options: further options of the command line, such as ``["--particles", "50"]``.
 
     Returns:
-        the folder.
+        the folder, a ``pathlib.Path``.
 
     Raises:
-        PhaseError: for an invalid argument, with the sentence of the command line.
+        PhaseError: for an invalid argument, and if files cannot be written, with the sentence of the command line.
+        KeyboardInterrupt: what is finished is kept.
     """
     if out is None:
         raise PhaseError("out: a folder for the dataset is needed")
@@ -62,15 +73,18 @@ def generate(preset="demo", events=None, out=None, *, shard=None, seed=None, vid
 def evaluate(predictions, events, *, task="goals", split=None, ratings=None, seed=1, name="predictions", out=None):
     """Scores answers with the metrics of the benchmark (docs/benchmark.md).
 
+    >>> answers = {event.id: infer(event) for event in events}   # doctest: +SKIP
+    >>> evaluate(answers, events)["goal"]["top1"]                # doctest: +SKIP
+
     Args:
         predictions: a dict from ids of events to answers: for ``goals`` as :func:`infer` gives them, for ``trajectories`` as
             :func:`forecast` does; or the name of one of PHASE's methods, which is asked then.
         events: the path of a file or a dataset, or a list of events.
         task: ``goals`` or ``trajectories``.
-        split: ``train``, ``validation`` or ``test`` of a dataset.
-        ratings: a file in the format ``phase-ratings/1``.
-        seed: of the intervals, and of a method.
-        name: how the report names the predictions.
+        split: ``train``, ``validation`` or ``test`` of a dataset; ``None`` for all of its events.
+        ratings: a file in the format ``phase-ratings/1``, to compare the answers with people's.
+        seed: a whole number from 0 to 2**64 - 1, for the random draws of the intervals and of a method.
+        name: the name of the predictions in the report.
         out: a folder that keeps results and report; ``None`` keeps nothing.
 
     Returns:
@@ -78,7 +92,7 @@ def evaluate(predictions, events, *, task="goals", split=None, ratings=None, see
         ``roles``, ``calibration``, … or ``agents``, ``entities``, …, and every answer in ``events``.
 
     Raises:
-        PhaseError: if an event has no answer, or an answer is invalid.
+        PhaseError: if an event has no answer, an answer is invalid, or a file cannot be read.
     """
     if task not in ("goals", "trajectories"):
         raise PhaseError(f"task is goals or trajectories, not {task!r}")

@@ -23,12 +23,22 @@ VIEWS = ("view", "state")
 
 
 def observation_space():
-    """The space of an agent's observation."""
+    """The space of an agent's observation: a box of ``OBSERVATION_SIZE`` 32-bit floats without bounds."""
     return spaces.Box(-np.inf, np.inf, (OBSERVATION_SIZE,), np.float32)
 
 
 class Arena:
-    """One world with its scene, clock and pictures: what both kinds of environments share."""
+    """One world with its scene, clock and pictures: the part that both kinds of environments share.
+
+    Args:
+        scenes, engine, observation, max_steps, render_mode, side: as of :class:`PhaseParallelEnv`.
+
+    Raises:
+        PhaseError: for an invalid argument.
+
+    ``observations`` (1, 2, OBSERVATION_SIZE), ``rewards`` (1, 2) and ``achieved`` (1, 2), whether goals hold, are overwritten by every
+    step.
+    """
 
     def __init__(self, scenes, engine, observation, max_steps, render_mode, side):
         if observation not in VIEWS:
@@ -57,7 +67,15 @@ class Arena:
         _native.Worlds([], engine, self._omniscient, 1)
 
     def reset(self, seed, options):
-        """Begins an episode."""
+        """Begins an episode: draws its seed, from that its scene, and puts the world at its start.
+
+        Args:
+            seed: a whole number from 0 to 2**64 - 1 from which this and all later episodes follow; ``None`` goes on drawing.
+            options: ``{"scene": …}`` gives the scene of this episode; ``None`` for none.
+
+        Raises:
+            PhaseError: for an invalid seed or scene, and after :meth:`close`.
+        """
         self.check_open()
         if seed is not None:
             self._random = np.random.default_rng(seed_of(seed))
@@ -75,7 +93,14 @@ class Arena:
             self.render()
 
     def step(self, actions):
-        """Lets both agents act."""
+        """Lets both agents act for a step of 0.25 s.
+
+        Args:
+            actions: the numbers of both agents' actions, 0 to 13.
+
+        Raises:
+            PhaseError: for an invalid action, before :meth:`reset` and after :meth:`close`.
+        """
         self.check_running()
         self._worlds.step(np.array([actions], dtype=np.int64), self.observations, self.rewards, self.achieved)
         self.steps += 1
@@ -88,21 +113,26 @@ class Arena:
         return self.steps >= self.max_steps
 
     def observation(self, agent):
-        """A copy of an agent's observation."""
+        """A copy of an agent's observation, (OBSERVATION_SIZE,) 32-bit floats."""
         return self.observations[0, agent].copy()
 
     @property
     def bodies(self):
-        """(entities, 6): the true state."""
+        """The true state: (entities, 6), columns x, y (u), angle (rad), vx, vy (u/s), angular velocity (rad/s)."""
         self.check_running()
         return self._worlds.bodies(0)
 
     def info(self, agent):
-        """What is true of an agent's goals: not for the agent."""
+        """Whether the agent's goal and the other's hold in truth, which the agent need not know."""
         return {"goal_holds": bool(self.achieved[0, agent]), "other_goal_holds": bool(self.achieved[0, 1 - agent])}
 
     def render(self):
-        """A picture, or a frame in a window."""
+        """A picture (side, side, 3), 0 to 255, for ``rgb_array``; a frame in a window and ``None`` for ``human``.
+
+        Raises:
+            PhaseError: before :meth:`reset` and after :meth:`close`.
+            gymnasium.error.DependencyNotInstalled: if a window is asked for and pygame is absent.
+        """
         if self.render_mode is None:
             gymnasium.logger.warn("render() needs render_mode='human' or 'rgb_array' when the environment is made")
             return None
@@ -139,22 +169,33 @@ class Arena:
         self._closed = True
 
     def check_open(self):
-        """Raises PhaseError after close."""
+        """Refuses any use after :meth:`close`.
+
+        Raises:
+            PhaseError: after close.
+        """
         if self._closed:
             raise PhaseError("the environment is closed")
 
     def check_running(self):
-        """Raises PhaseError after close and before reset."""
+        """Refuses what needs an episode.
+
+        Raises:
+            PhaseError: after :meth:`close`, and before :meth:`reset`.
+        """
         self.check_open()
         if self._worlds is None:
             raise PhaseError("call reset before step, render and state")
 
 
 def as_action(action):
-    """The number of an action.
+    """The number of an action as an ``int``.
+
+    Args:
+        action: a whole number from 0 to 13, of any type.
 
     Raises:
-        PhaseError: if it is none.
+        PhaseError: for anything else.
     """
     try:
         number = int(action)
@@ -167,7 +208,14 @@ def as_action(action):
 
 
 def as_policy(partner):
-    """A policy by its name, or the policy itself."""
+    """A policy by its name, or the policy itself.
+
+    Args:
+        partner: ``phase``, ``heuristic``, ``random``, ``still``, or a function from an observation to an action.
+
+    Raises:
+        PhaseError: for anything else.
+    """
     named = {"phase": Mind, "heuristic": HeuristicPolicy, "random": RandomPolicy, "still": StillPolicy}
     if isinstance(partner, str) and partner in named:
         return named[partner]()
@@ -179,6 +227,10 @@ def as_policy(partner):
 class PhaseParallelEnv(pettingzoo.ParallelEnv):
     """Two agents in a PHASE world that act at the same time.
 
+    >>> env = PhaseParallelEnv("chasing", max_steps=60)
+    >>> observations, infos = env.reset(seed=1)
+    >>> observations, rewards, terminations, truncations, infos = env.step({"agent_0": 0, "agent_1": 12})
+
     Args:
         scenes: a scene, a kind of event, ``"preset:phase-500"``, a list of scenes, a function of a seed, or ``None`` for sampled scenes
             of all kinds (:func:`phase_events.scenes.as_source`).
@@ -186,7 +238,7 @@ class PhaseParallelEnv(pettingzoo.ParallelEnv):
         engine: ``world`` (rapier2d) or ``forward`` (the kernel that minds plan in: faster).
         max_steps: steps after which an episode is truncated.
         render_mode: ``None``, ``rgb_array`` or ``human``.
-        side: of a picture (pixels).
+        side: the side of a picture (pixels), 64 to 2000.
 
     Raises:
         PhaseError: for invalid arguments, actions and scenes, and for any use after :meth:`close`.
@@ -209,16 +261,16 @@ class PhaseParallelEnv(pettingzoo.ParallelEnv):
         self.state_space = spaces.Box(-np.inf, np.inf, (4, 6), np.float32)
 
     def observation_space(self, agent):
-        """The space of observations: the same object each time."""
+        """The space of an agent's observations, one object for all calls."""
         return self.observation_spaces[agent]
 
     def action_space(self, agent):
-        """The fourteen actions."""
+        """The space of an agent's actions: the fourteen indices of ``ACTIONS``."""
         return self.action_spaces[agent]
 
     @property
     def scene(self):
-        """The :class:`Scene` of the episode."""
+        """The :class:`Scene` of the episode; ``None`` before the first one."""
         return self._arena.scene
 
     @property
@@ -227,13 +279,35 @@ class PhaseParallelEnv(pettingzoo.ParallelEnv):
         return self._arena.seed
 
     def reset(self, seed=None, options=None):
-        """Begins an episode. ``options={"scene": …}`` gives its scene; other options are ignored."""
+        """Begins an episode.
+
+        Args:
+            seed: a whole number from 0 to 2**64 - 1 from which this and all later episodes follow; ``None`` goes on drawing.
+            options: ``{"scene": …}`` gives the scene of this episode; other options are ignored.
+
+        Returns:
+            the observations and the infos, dicts from ``agent_0`` and ``agent_1``. An info has ``goal_holds`` and
+            ``other_goal_holds``, which are the truth.
+
+        Raises:
+            PhaseError: for an invalid seed or scene, and after :meth:`close`.
+        """
         self._arena.reset(seed, options)
         self.agents = list(AGENTS)
         return self._by_agent(self._arena.observation), self._by_agent(self._arena.info)
 
     def step(self, actions):
-        """Both agents act: a dict from each agent to its action."""
+        """Lets both agents act for a step of 0.25 s.
+
+        Args:
+            actions: a dict from ``agent_0`` and ``agent_1`` to their actions, indices of ``ACTIONS``.
+
+        Returns:
+            observations, rewards, terminations, truncations and infos, dicts from agents; empty ones after the last step.
+
+        Raises:
+            PhaseError: for a missing or invalid action, before :meth:`reset` and after :meth:`close`.
+        """
         arena = self._arena
         arena.check_running()
         if not self.agents:
@@ -255,7 +329,7 @@ class PhaseParallelEnv(pettingzoo.ParallelEnv):
         return answer
 
     def state(self):
-        """The bodies: (4, 6), columns x, y, angle, vx, vy, angular velocity; 0 for absent objects."""
+        """The true state: (4, 6), columns x, y (u), angle (rad), vx, vy (u/s), angular velocity (rad/s); 0 for absent objects."""
         bodies = self._arena.bodies
         state = np.zeros((4, 6), dtype=np.float32)
         state[: len(bodies)] = bodies
@@ -276,6 +350,10 @@ class PhaseParallelEnv(pettingzoo.ParallelEnv):
 
 class PhaseEnv(gymnasium.Env):
     """One agent in a PHASE world; a partner drives the other.
+
+    >>> env = PhaseEnv("helping", agent=1, partner="heuristic")
+    >>> observation, info = env.reset(seed=1)
+    >>> observation, reward, terminated, truncated, info = env.step(env.action_space.sample())
 
     Args:
         scenes, observation, engine, max_steps, render_mode, side: as of :class:`PhaseParallelEnv`.
@@ -316,7 +394,18 @@ class PhaseEnv(gymnasium.Env):
         return self._arena.scene
 
     def reset(self, *, seed=None, options=None):
-        """Begins an episode. ``options={"scene": …}`` gives its scene."""
+        """Begins an episode; the partner is reset with its scene and seed.
+
+        Args:
+            seed: a whole number from 0 to 2**64 - 1 from which this and all later episodes follow; ``None`` goes on drawing.
+            options: ``{"scene": …}`` gives the scene of this episode.
+
+        Returns:
+            the learner's observation and its info, with ``goal_holds`` and ``other_goal_holds``.
+
+        Raises:
+            PhaseError: for an invalid seed or scene, and after :meth:`close`.
+        """
         super().reset(seed=seed)
         arena = self._arena
         arena.reset(seed, options)
@@ -325,7 +414,17 @@ class PhaseEnv(gymnasium.Env):
         return arena.observation(self._agent), arena.info(self._agent)
 
     def step(self, action):
-        """The learner and its partner act at the same time."""
+        """Lets the learner and its partner act at the same time, for a step of 0.25 s.
+
+        Args:
+            action: the learner's action, an index of ``ACTIONS``.
+
+        Returns:
+            observation, reward, terminated (always ``False``), truncated, and info, which has ``partner_action``, too.
+
+        Raises:
+            PhaseError: for an invalid action of either agent, before :meth:`reset` and after :meth:`close`.
+        """
         arena, agent = self._arena, self._agent
         arena.check_running()
         actions = [0, 0]

@@ -14,7 +14,14 @@ from .scenes import seed_of
 
 
 class Event:
-    """What happened in a scene: made by :func:`simulate`, or an element of :func:`load_events`."""
+    """A scene and the motion in it: made by :func:`simulate`, or an element of :func:`load_events`.
+
+    >>> event = simulate(sample_scene("chasing", seed=1), seed=1, max_steps=40)   # doctest: +SKIP
+    >>> event.trajectory[-1, 0, :2]    # where agent 0 is at the end (u)           # doctest: +SKIP
+
+    An event is either a simulation, which has substeps, actions and thoughts, or a recording, which may have none of them. It does not
+    change.
+    """
 
     def __init__(self, native):
         self._native = native
@@ -24,12 +31,12 @@ class Event:
 
     @property
     def native(self):
-        """The event in Rust."""
+        """The event of the native module, which methods and renderers take."""
         return self._native
 
     @property
     def id(self):
-        """Its name in its file."""
+        """The name of the event, which no other event of its file has."""
         return self._native.id
 
     @property
@@ -44,7 +51,7 @@ class Event:
 
     @property
     def steps(self):
-        """Number of steps of 0.25 s."""
+        """The number of steps, each of 0.25 s."""
         return self._native.steps
 
     @property
@@ -54,23 +61,26 @@ class Event:
 
     @cached_property
     def trajectory(self):
-        """(steps + 1, entities, 5) 32-bit floats: x, y (u), vx, vy (u/s), angle (rad) of every entity, agents first. Row 0 is the
-        initial state, every other the mean over the five substeps of its step, as methods observe them."""
+        """The motion as methods observe it: (steps + 1, entities, 5) 32-bit floats, columns x, y (u), vx, vy (u/s), angle (rad).
+
+        Entities are agents, then objects. Row 0 is the initial state, every other the mean over the five substeps of its step.
+        """
         return self._native.trajectory()
 
     @cached_property
     def substeps(self):
-        """(5 steps, entities, 6): x, y, angle, vx, vy, angular velocity after each substep of 1/60 s; ``None`` for a recording."""
+        """The true state after each of the five substeps of every step: (5 · steps, entities, 6) 32-bit floats, columns x, y (u), angle
+        (rad), vx, vy (u/s), angular velocity (rad/s); ``None`` for a recording."""
         return self._native.substeps()
 
     @cached_property
     def actions(self):
-        """(steps, 2): both agents' actions, indices of ``ACTIONS``. For a recording those recovered from its motion, or ``None``."""
+        """Both agents' actions: (steps, 2), indices of ``ACTIONS``. For a recording those recovered from its motion, or ``None``."""
         return self._native.actions()
 
     @cached_property
     def thoughts(self):
-        """Of each step the reasons of both agents, as :attr:`Mind.thought`; ``None`` for a recording."""
+        """The reasons of both agents at each step, as :attr:`Mind.thought` gives them; ``None`` for a recording."""
         text = self._native.thoughts()
         return None if text is None else json.loads(text)
 
@@ -97,7 +107,14 @@ class Event:
         _write(path, self.to_json())
 
     def picture(self, row=-1, side=480):
-        """The scene at a row of the trajectory: (side, side, 3), 0 to 255.
+        """A picture of the event at a row of its trajectory.
+
+        Args:
+            row: 0 for the initial state to ``steps``; negative numbers count from the end.
+            side: the side of the picture (pixels), 64 to 2000.
+
+        Returns:
+            (side, side, 3) 8-bit numbers: red, green, blue, the first row at the top.
 
         Raises:
             PhaseError: for a row that the event does not have, and a side outside 64 to 2000.
@@ -108,16 +125,24 @@ class Event:
         return _native.Renderer(side).event(self._native, row)
 
     def save_video(self, path, side=480):
-        """Writes the event as an .mp4 (H.264) of 20 frames a second.
+        """Writes the event as an .mp4 (H.264) of 20 frames a second, five a step.
+
+        Args:
+            path: the file. One that exists is overwritten.
+            side: the side of the video (pixels), 64 to 2000.
 
         Raises:
-            PhaseError: if it cannot be written.
+            PhaseError: for another side, and if the file cannot be written.
         """
         _native.Renderer(side).video(self._native, os.fspath(path))
 
 
 class Events(Sequence):
-    """Events, read when they are asked for."""
+    """A sequence of events that are read when they are asked for. :func:`load_events` makes it.
+
+    An index gives an :class:`Event`, a slice a list of them; ``len`` reads none. An event that cannot be read raises
+    :class:`PhaseError`, an index that there is not ``IndexError``.
+    """
 
     def __init__(self, source):
         self._source = source
@@ -134,16 +159,25 @@ class Events(Sequence):
         return Event(self._source.load(index))
 
     def tensors(self):
-        """See :func:`tensors`."""
+        """All events as padded arrays, as :func:`tensors` makes them."""
         return tensors(self)
 
     def to_pandas(self):
-        """See :func:`to_pandas`."""
+        """All events as one table, as :func:`to_pandas` makes it."""
         return to_pandas(self)
 
 
 def load_events(path):
-    """The events of a file in the format ``phase-events/1``, or of the folder of a dataset or of simulations: a sequence.
+    """The events of a file or a folder, as a sequence.
+
+    >>> events = load_events("out/demo")             # doctest: +SKIP
+    >>> [event.relation for event in events[:3]]     # doctest: +SKIP
+
+    Args:
+        path: a file in the format ``phase-events/1``, or the folder of a dataset or of simulations.
+
+    Returns:
+        :class:`Events`, which read each event when it is asked for.
 
     Raises:
         PhaseError: naming file, field and rule, if there are none or they cannot be read.
@@ -156,14 +190,18 @@ def simulate(scene, seed=0, *, id="event", engine="world", max_steps=100, parame
 
     Args:
         scene: a :class:`Scene`, a dict or JSON text.
-        seed: the same seed gives the same event, on every machine.
-        id: its name.
+        seed: a whole number from 0 to 2**64 - 1. One seed gives one event, on every machine.
+        id: the name of the event.
         engine: ``world`` (rapier2d) or ``forward`` (the kernel that minds plan in).
-        max_steps: its length at most (steps of 0.25 s).
-        parameters: of both minds; a dict of what differs from the defaults, such as ``{"kind": "published"}``.
+        max_steps: the greatest length (steps of 0.25 s), 1 to 10000. The event ends earlier once nothing happens any more.
+        parameters: a dict of the parameters of both minds that differ from the defaults of their kind (docs/minds.md), such as
+            ``{"simulations": 200}`` or ``{"kind": "published"}``.
+
+    Returns:
+        the :class:`Event`.
 
     Raises:
-        PhaseError: for an invalid argument.
+        PhaseError: for an invalid argument, naming it and the rule.
         KeyboardInterrupt: within a step.
     """
     parameters = None if parameters is None else json.dumps(parameters)
@@ -175,8 +213,12 @@ def simulate(scene, seed=0, *, id="event", engine="world", max_steps=100, parame
 def save_events(events, path):
     """Writes events as one file in the format ``phase-events/1``, as every command reads them.
 
+    Args:
+        events: at least one :class:`Event`.
+        path: the file. One that exists is overwritten.
+
     Raises:
-        PhaseError: if it cannot be written, or two have the same id.
+        PhaseError: if there are no events, two have the same id, or the file cannot be written.
     """
     events = list(events)
     if len({event.id for event in events}) < len(events):
@@ -190,6 +232,9 @@ def save_events(events, path):
 
 def tensors(events):
     """Events as padded arrays.
+
+    Args:
+        events: at least one :class:`Event`.
 
     Returns:
         a dict of ``trajectory`` (N, T + 1, 4, 5), ``mask`` (N, T + 1) that is true where an event has a row, ``entities`` (N, 4) that
@@ -228,8 +273,19 @@ def tensors(events):
 
 
 def to_pandas(events):
-    """Rows of all events as a ``pandas.DataFrame``: ``event``, ``kind``, ``relation``, ``step``, ``entity``, ``x``, ``y``, ``vx``,
-    ``vy``, ``angle`` and ``action``, the name of what an agent did from that row on."""
+    """Events as one table. It needs ``phase-events[data]``.
+
+    Args:
+        events: at least one :class:`Event`.
+
+    Returns:
+        a ``pandas.DataFrame`` with a row for each entity at each row of a trajectory. Its columns are ``event``, ``kind``, ``relation``,
+        ``step``, ``entity``, ``x``, ``y`` (u), ``vx``, ``vy`` (u/s), ``angle`` (rad) and ``action``, the name of the agent's action
+        from that row on.
+
+    Raises:
+        PhaseError: if there are no events.
+    """
     import pandas
 
     names = ["agent 0", "agent 1", "object 0", "object 1"]

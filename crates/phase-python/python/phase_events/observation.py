@@ -1,4 +1,4 @@
-"""What an agent observes, as a vector of 32-bit floats.
+"""An agent's observation as a vector of ``OBSERVATION_SIZE`` 32-bit floats.
 
 The vector has the parts of ``OBSERVATION_PARTS``, in order. The observing agent comes first, then the other agent, then the objects;
 what is not observed is 0.
@@ -16,7 +16,7 @@ forces       (2,)      maximum forces (100 N)
 doors        (4, 2)    of each inner wall: where its door begins and ends, from the centre (u); 0, 0 without a door
 attitude     (1,)      the agent's attitude: 1 helps, -1 hinders, 0 neither
 own_goal     (12,)     kind (agent on landmark, object on landmark, touch), subject (as entities), landmark, one of each is 1; sign
-other_goal   (12,)     the same of the other agent's goal: agents know each other's goals
+other_goal   (12,)     the other agent's goal, as own_goal: agents know each other's goals
 holds        (2,)      whether either goal holds, as far as it is observed
 landmarks    (4, 2)    positions (u)
 agent        (1,)      number of the agent
@@ -36,7 +36,19 @@ for _name, _shape in OBSERVATION_PARTS:
 
 
 def split_observation(observation):
-    """The parts of an observation by their names, as views; of several observations at once if it has more dimensions.
+    """The parts of an observation by their names.
+
+    >>> import numpy as np
+    >>> split_observation(np.zeros(OBSERVATION_SIZE))["visible"].shape
+    (20, 20)
+    >>> split_observation(np.zeros((8, OBSERVATION_SIZE)))["radii"].shape
+    (8, 4)
+
+    Args:
+        observation: (…, OBSERVATION_SIZE): one observation, or several.
+
+    Returns:
+        a dict from the names of ``OBSERVATION_PARTS`` to views of the shapes (…, *shape).
 
     Raises:
         PhaseError: if its last dimension is not ``OBSERVATION_SIZE`` long.

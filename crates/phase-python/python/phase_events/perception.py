@@ -11,8 +11,12 @@ from .scenes import seed_of
 
 
 def methods():
-    """Names of the methods for :func:`infer` and for :func:`forecast`: a dict of two lists. Those of neural baselines need a
-    program that was built with them."""
+    """The names of the methods that there are.
+
+    Returns:
+        a dict: ``goals``, the methods of :func:`infer`, and ``trajectories``, those of :func:`forecast`. Neural baselines need a
+        package that was built with them.
+    """
     recognisers, forecasters = _native.methods()
     return {"goals": recognisers, "trajectories": forecasters}
 
@@ -20,11 +24,14 @@ def methods():
 def infer(event, *, method="simple", seed=0, steps=None):
     """Infers goals, relation and roles from the trajectories of an event; labels, actions and thoughts are not looked at.
 
+    >>> answer = infer(event, steps=40)                       # after 10 s   # doctest: +SKIP
+    >>> answer["goals"][0][0], answer["relation"]["friendly"]               # doctest: +SKIP
+
     Args:
-        event: an :class:`Event`.
+        event: an :class:`Event` of at least one step.
         method: ``simple``, guided inverse planning, or another of :func:`methods`.
-        seed: of the method's random draws.
-        steps: watch only so many steps.
+        seed: a whole number from 0 to 2**64 - 1, for the method's random draws.
+        steps: the number of steps to watch, at least 1; ``None`` for all.
 
     Returns:
         a dict: ``goals``, for each agent a list of ``{"goal": …, "p": …}``, most likely first; ``relation``, the probabilities of
@@ -48,14 +55,18 @@ def forecast(event, *, method="simple", watched=20, steps=20, seed=0):
 
     Args:
         event: an :class:`Event`, of which only the first ``watched`` steps are looked at.
-        steps: how many further steps to predict.
+        method: one of ``methods()["trajectories"]``.
+        watched: the number of steps to watch (0.25 s each), 1 to the number that the event has.
+        steps: the number of further steps to predict, 1 to 10000.
+        seed: a whole number from 0 to 2**64 - 1, for the method's random draws.
 
     Returns:
-        ``forecast`` (entities, steps, 2), the expected positions (u), and ``futures`` (samples, entities, steps, 2), equally likely
-        ones; no sample for methods that predict one future only.
+        a dict: ``forecast`` (entities, steps, 2), the expected positions x, y (u), and ``futures`` (samples, entities, steps, 2),
+        equally likely ones; no sample for methods that predict one future only.
 
     Raises:
         PhaseError: for an unknown method or an invalid number of steps.
+        KeyboardInterrupt: between two simulations.
     """
     for name, number in (("watched", watched), ("steps", steps)):
         if not isinstance(number, int) or not 1 <= number <= 10_000:
@@ -71,12 +82,16 @@ def forecast(event, *, method="simple", watched=20, steps=20, seed=0):
 class Observer:
     """SIMPLE while an event is watched (docs/simple.md): the posterior after every row.
 
+    >>> observer = Observer(event.scene, event.trajectory[0])   # doctest: +SKIP
+    >>> for row in event.trajectory[1:]:                        # doctest: +SKIP
+    ...     answer = observer.push(row)
+
     Args:
-        scene: of which only walls and sizes are looked at.
+        scene: a scene, as of :func:`phase_events.scene`, of which only walls and sizes are looked at.
         row: the first row, (entities, 5): x, y (u), vx, vy (u/s), angle (rad) of each entity, agents first.
-        seed: of its random draws.
-        decisions: how many decisions of minds :meth:`push` may simulate for a row; each takes some milliseconds. ``None`` for
-            20, which is less than the 0.25 s that a step lasts.
+        seed: a whole number from 0 to 2**64 - 1, for its random draws.
+        decisions: the number of decisions of minds that :meth:`push` may simulate for a row; each takes some milliseconds. ``None``
+            for 20, which is less than the 0.25 s that a step lasts.
 
     Raises:
         PhaseError: for a row of the wrong shape, or with numbers that are not finite.
@@ -87,11 +102,28 @@ class Observer:
         self._native = _native.Observer(as_scene(scene), _two(row), seed_of(seed), decisions)
 
     def push(self, row):
-        """Watches the next row; the answer as of :func:`infer`, with limited effort."""
+        """Watches the next row, 0.25 s later, and answers with limited effort.
+
+        Args:
+            row: (entities, 5), columns as of the first row.
+
+        Returns:
+            a dict as of :func:`infer`, without ``details``.
+
+        Raises:
+            PhaseError: for a row of another shape, or with numbers that are not finite.
+        """
         return _answer(self._native.push(_two(np.ascontiguousarray(row, dtype=np.float32))))
 
     def inference(self):
-        """The answer of :func:`infer` for the rows seen so far, with as much effort as it takes."""
+        """The answer of :func:`infer` for the rows seen so far, with as much effort as it takes.
+
+        Returns:
+            a dict as of :func:`infer`, without ``details``.
+
+        Raises:
+            PhaseError: if no step has been watched.
+        """
         return _answer(self._native.inference())
 
 

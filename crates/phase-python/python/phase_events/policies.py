@@ -36,11 +36,15 @@ class Mind:
 
     It can be used on its own or as a policy in an environment; then :meth:`reset` gives it the scene.
 
+    >>> env = PhaseEnv("helping", partner=Mind(parameters={"simulations": 200}))   # doctest: +SKIP
+
     Args:
-        scene: the scene; ``None`` if :meth:`reset` will be called.
-        agent: 0 or 1.
-        seed: of its belief and its search. Two minds with the seed of an event decide as those of :func:`phase_events.simulate`.
-        parameters: a dict of parameters that differ from the defaults (docs/minds.md), such as ``{"simulations": 200}``.
+        scene: a scene, as of :func:`phase_events.scene`; ``None`` if :meth:`reset` will be called.
+        agent: the agent whose mind it is, 0 or 1.
+        seed: a whole number from 0 to 2**64 - 1, for its belief and its search. Two minds with the seed of an event decide as those of
+            :func:`phase_events.simulate`.
+        parameters: a dict of parameters of the kind ``phase`` that differ from the defaults (docs/minds.md), such as
+            ``{"simulations": 200}``.
 
     Raises:
         PhaseError: for an invalid scene, agent, seed or parameter.
@@ -53,12 +57,19 @@ class Mind:
             self.reset(scene, agent, seed)
 
     def reset(self, scene, agent, seed):
-        """Begins an event: what was believed is forgotten."""
+        """Begins an event: all beliefs are forgotten.
+
+        Args:
+            scene, agent, seed: as of the constructor.
+
+        Raises:
+            PhaseError: for an invalid scene, agent, seed or parameter.
+        """
         self._mind = _native.Mind(as_scene(scene), agent, seed_of(seed), self._parameters)
 
     @property
     def native(self):
-        """The mind in Rust.
+        """The mind of the native module.
 
         Raises:
             PhaseError: before it has a scene.
@@ -72,10 +83,13 @@ class Mind:
 
         Args:
             observation: (OBSERVATION_SIZE,) 32-bit floats, as environments give them to this agent.
-            action: what the agent did since its last decision, if that was not what the mind decided.
+            action: the action that the agent took since its last decision, if that was not the one that the mind decided on.
 
         Returns:
             the number of an action, an index of ``ACTIONS``.
+
+        Raises:
+            PhaseError: before the mind has a scene, for an invalid action, and for numbers that are no observation of its agent.
         """
         observation = np.ascontiguousarray(observation, dtype=np.float32)
         if observation.ndim != 1:
@@ -92,8 +106,11 @@ class Mind:
 
     @property
     def thought(self):
-        """The reasons of the last decision as a dict: ``subgoal``, such as ``On(agent 0, landmark 1)``; ``subgoals`` with their values V and numbers of particles;
-        ``plan``; ``actions`` with the visits and values of the search. ``None`` before the first decision."""
+        """The reasons of the last decision as a dict; ``None`` before the first one.
+
+        It has ``subgoal``, such as ``On(agent 0, landmark 1)``; ``subgoals`` with their values V and numbers of particles; ``plan``;
+        ``actions`` with the visits and values of the search.
+        """
         thought = self.native.thought()
         return None if thought is None else json.loads(thought)
 
@@ -107,13 +124,20 @@ class Mind:
 
 
 class RandomPolicy:
-    """All fourteen actions are equally likely."""
+    """Draws one of the fourteen actions, all equally likely.
+
+    Args:
+        seed: a whole number from 0 to 2**64 - 1.
+
+    Raises:
+        PhaseError: for an invalid seed.
+    """
 
     def __init__(self, seed=0):
         self._random = np.random.default_rng(seed_of(seed))
 
     def reset(self, scene, agent, seed):
-        """Draws from the episode's seed."""
+        """Begins an episode: draws follow from its seed and from the agent's number."""
         self._random = np.random.default_rng((seed_of(seed), agent))
 
     def __call__(self, observation):
@@ -131,8 +155,11 @@ class ReplayPolicy:
     """Repeats the actions of an agent of an event, then stops.
 
     Args:
-        actions: (steps,) actions, or an event with actions.
-        agent: whose actions are taken from an event.
+        actions: (steps,) actions, indices of ``ACTIONS``, or an :class:`Event` with actions.
+        agent: the agent whose actions are taken from an event, 0 or 1.
+
+    Raises:
+        PhaseError: for an event without actions.
     """
 
     def __init__(self, actions, agent=1):
@@ -144,7 +171,7 @@ class ReplayPolicy:
         self._next = 0
 
     def reset(self, scene, agent, seed):
-        """Begins anew."""
+        """Begins an episode: the first action is next."""
         self._next = 0
 
     def __call__(self, observation):

@@ -23,9 +23,10 @@ def generate(preset="demo", events=None, out=None, *, shards=None, seed=None, vi
     """Generates a dataset as :func:`phase_events.generate`, one shard an actor.
 
     Args:
+        preset, events, seed, video, options: as of :func:`phase_events.generate`.
         out: the folder of the dataset, on a file system that all workers share; the shards are in ``OUT.shards`` and are kept until
             they are merged.
-        shards: how many; ``None`` for four a core of the cluster, at most one an event.
+        shards: the number of shards; ``None`` for four a core of the cluster, at most one an event.
         retries: how often a shard is made again after its worker died.
 
     Returns:
@@ -55,9 +56,12 @@ def evaluate(method, events, out, *, task="goals", split=None, shards=None, seed
     """Evaluates one of PHASE's methods as :func:`phase_events.evaluate`, one shard an actor.
 
     Args:
-        method: its name.
+        method: the name of the method, one of :func:`phase_events.methods`.
         events: a file or a dataset on a file system that all workers share.
         out: a folder for results and report there.
+        task, split, seed: as of :func:`phase_events.evaluate`.
+        shards: the number of shards; ``None`` for four a core of the cluster.
+        retries: how often a shard is made again after its worker died.
 
     Returns:
         the document of results.

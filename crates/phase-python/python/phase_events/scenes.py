@@ -9,8 +9,18 @@ from ._native import PhaseError, Scene
 def scene(description):
     """A scene from a dict, JSON text, or a :class:`Scene`.
 
-    The members are those of ``scene`` in a ``phase-events/1`` file (docs/formats.md): ``layout``, ``objects``, ``event`` and
-    ``agents``.
+    >>> found = sample_scene("helping", seed=1)
+    >>> description = found.to_dict()
+    >>> description["agents"][1]["size_level"] = 0
+    >>> scene(description).kind
+    'helping'
+
+    Args:
+        description: its members are those of ``scene`` in a ``phase-events/1`` file (docs/formats.md): ``layout``, ``objects``,
+            ``event`` and ``agents``.
+
+    Returns:
+        a valid :class:`Scene`.
 
     Raises:
         PhaseError: naming the field and the rule, if the description is no valid scene.
@@ -34,7 +44,10 @@ def sample_scene(kind=None, *, variant=None, preset=None, seed=0):
         kind: ``helping``, ``hindering``, ``chasing``, ``competing``, ``collaborating`` or ``independent``; any of them if ``None``.
         variant: a variant of the kind, such as ``fetch`` or ``block`` (docs/dataset.md).
         preset: draw as a preset does instead, such as ``phase-500`` or ``phase-pairs``, or a file in the format ``phase-preset/3``.
-        seed: a whole number of 64 bits; the same seed gives the same scene.
+        seed: a whole number from 0 to 2**64 - 1. One seed gives one scene, on every machine.
+
+    Returns:
+        a :class:`Scene`.
 
     Raises:
         PhaseError: for unknown names, and if no scene was found.
@@ -48,10 +61,13 @@ def sample_scene(kind=None, *, variant=None, preset=None, seed=0):
 
 
 def seed_of(seed):
-    """A seed as a whole number from 0 to 2**64 - 1.
+    """A seed as an ``int``.
+
+    Args:
+        seed: a whole number from 0 to 2**64 - 1, of any type.
 
     Raises:
-        PhaseError: if it is none.
+        PhaseError: for anything else.
     """
     try:
         number = int(seed)
@@ -64,10 +80,17 @@ def seed_of(seed):
 
 
 def as_source(scenes):
-    """A function from a seed to a scene.
+    """A function from a seed to a :class:`Scene`, as environments draw the scenes of their episodes.
 
-    ``scenes`` is a scene or a description of one, a kind, a preset (``"preset:phase-500"`` or a path that ends in ``.json``), a
-    list of scenes, one of which the seed chooses, a function of the seed, or ``None`` for scenes of all kinds.
+    >>> as_source("chasing")(7).kind
+    'chasing'
+
+    Args:
+        scenes: a scene or a description of one, a kind, a preset (``"preset:phase-500"`` or a path that ends in ``.json``), a list of
+            scenes, one of which the seed chooses, a function of the seed, or ``None`` for scenes of all kinds.
+
+    Raises:
+        PhaseError: for an empty list, and for anything that is no scene.
     """
     kinds = ("helping", "hindering", "chasing", "competing", "collaborating", "independent")
     if scenes is None:

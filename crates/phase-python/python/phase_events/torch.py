@@ -9,7 +9,13 @@ RELATIONS = ("friendly", "adversarial", "neutral")
 
 
 class EventDataset(torch.utils.data.Dataset):
-    """Events, read when they are asked for.
+    """Events as a PyTorch dataset; each is read when it is asked for.
+
+    >>> data = EventDataset(load_events("out/demo"))                                      # doctest: +SKIP
+    >>> loader = torch.utils.data.DataLoader(data, batch_size=8, collate_fn=collate)      # doctest: +SKIP
+
+    Args:
+        events: a sequence of :class:`Event`.
 
     An item is a dict of tensors: ``trajectory`` (T + 1, entities, 5) float32, columns x, y (u), vx, vy (u/s), angle (rad); ``actions``
     (T, 2) int64, -1 where there is none; ``kind``, an index of ``KINDS``; ``relation``, an index of ``RELATIONS``; ``attitudes`` (2,).
@@ -37,8 +43,14 @@ class EventDataset(torch.utils.data.Dataset):
 
 
 def collate(items):
-    """A batch: items padded with 0 (actions with -1) to the longest event and to four entities, with ``mask`` (N, T + 1) and
-    ``entities`` (N, 4).
+    """A batch of items, padded with 0 (actions with -1) to the longest event and to four entities.
+
+    Args:
+        items: at least one item of an :class:`EventDataset`.
+
+    Returns:
+        a dict of the members of an item with a first dimension of N items, and of ``mask`` (N, T + 1) and ``entities`` (N, 4), which are
+        true where there is a row and an entity.
 
     Raises:
         PhaseError: for an empty batch.

@@ -16,7 +16,11 @@ from .scenes import as_source, seed_of
 
 
 class PhaseVectorEnv(gymnasium.vector.VectorEnv):
-    """``worlds`` PHASE worlds, stepped together.
+    """Several PHASE worlds that are stepped together.
+
+    >>> env = PhaseVectorEnv(16, "helping", agent=0, partner="heuristic", pool=8)
+    >>> observations, infos = env.reset(seed=1)
+    >>> observations, rewards, terminations, truncations, infos = env.step(env.action_space.sample())
 
     With ``agent`` 0 or 1 there is one learner in each world, and ``num_envs`` is ``worlds``. With ``agent=None`` both agents are
     learners, and ``num_envs`` is twice ``worlds``: row 2 k is agent 0 of world k, row 2 k + 1 agent 1.
@@ -24,16 +28,17 @@ class PhaseVectorEnv(gymnasium.vector.VectorEnv):
     Observations are a view of the array that worlds write into: the next step overwrites it. ``copy=True`` gives copies.
 
     Args:
-        worlds: how many.
+        worlds: the number of worlds.
         scenes: as of :class:`PhaseParallelEnv`. Scenes that are sampled are drawn once, ``pool`` of them, at the first reset and after
             every reset with a seed, and each episode has one of them.
-        agent: the learner.
+        agent: the learner, 0 or 1, or ``None`` for both.
         partner: drives the other agent: ``phase``, ``heuristic``, ``random``, ``still``, or a function that makes a policy.
-        pool: how many different scenes.
+        pool: the number of different scenes.
         observation, engine, max_steps: as of :class:`PhaseParallelEnv`.
-        threads: how many worlds are stepped, and how many minds decide, at once; ``None`` for one a core.
+        threads: the number of worlds that are stepped, and of minds that decide, at once; ``None`` for one a core.
         autoreset: ``next_step`` (the step after the last one of an episode begins the next, its action is ignored) or ``same_step``
             (the last step returns the first observation of the next episode, and ``infos["final_obs"]`` the last one).
+        render_mode: ``None`` or ``rgb_array``.
         copy: whether observations are copies.
 
     Raises:
@@ -96,7 +101,19 @@ class PhaseVectorEnv(gymnasium.vector.VectorEnv):
         _native.Worlds([], engine, self._omniscient, 1)
 
     def reset(self, *, seed=None, options=None):
-        """Begins an episode in every world."""
+        """Begins an episode in every world.
+
+        Args:
+            seed: a whole number from 0 to 2**64 - 1, or a list that begins with one, from which scenes and episodes follow; ``None``
+                goes on drawing.
+            options: ignored.
+
+        Returns:
+            observations (num_envs, OBSERVATION_SIZE), and infos with ``goal_holds`` (num_envs,).
+
+        Raises:
+            PhaseError: for an invalid seed, and after ``close``.
+        """
         self._check_open()
         if isinstance(seed, (list, tuple, np.ndarray)):
             seed = None if seed[0] is None else int(seed[0])
@@ -113,7 +130,17 @@ class PhaseVectorEnv(gymnasium.vector.VectorEnv):
         return self._observed(), self._infos()
 
     def step(self, actions):
-        """Every agent acts; ``actions`` is (num_envs,)."""
+        """Lets every agent act for a step of 0.25 s.
+
+        Args:
+            actions: (num_envs,) whole numbers, indices of ``ACTIONS``.
+
+        Returns:
+            observations (num_envs, OBSERVATION_SIZE), rewards (num_envs,), terminations (always false), truncations, infos.
+
+        Raises:
+            PhaseError: for an invalid action, of which none is carried out, before :meth:`reset` and after ``close``.
+        """
         self._check_open()
         if self._worlds is None:
             raise PhaseError("call reset before step")
@@ -147,13 +174,16 @@ class PhaseVectorEnv(gymnasium.vector.VectorEnv):
         return self._observed(), rewards.copy(), np.zeros(self.num_envs, dtype=bool), truncated, infos
 
     def scene(self, world):
-        """The scene of a world."""
+        """The :class:`Scene` of a world's episode; ``world`` is from 0 to the number of worlds less one."""
         return self._scenes[world]
 
     def state(self):
-        """The bodies, (worlds, 4, 6): columns x, y, angle, vx, vy, angular velocity, bodies by number, agents first; 0 for absent objects.
+        """The true states: (worlds, 4, 6), columns x, y (u), angle (rad), vx, vy (u/s), angular velocity (rad/s); 0 for absent objects.
 
-        It is the truth, for critics and for shaping rewards: agents do not see it.
+        Agents do not see them; they are for critics and for shaping rewards.
+
+        Raises:
+            PhaseError: before :meth:`reset` and after ``close``.
         """
         self._check_open()
         if self._worlds is None:
@@ -161,7 +191,7 @@ class PhaseVectorEnv(gymnasium.vector.VectorEnv):
         return self._worlds.states()
 
     def render(self):
-        """A picture of every world, or ``None`` without a render mode."""
+        """A picture (240, 240, 3), 0 to 255, of every world, or ``None`` without a render mode."""
         self._check_open()
         if self.render_mode is None:
             return None
@@ -169,7 +199,7 @@ class PhaseVectorEnv(gymnasium.vector.VectorEnv):
         return tuple(renderer.world(self._worlds, world) for world in range(self._worlds_count))
 
     def close_extras(self, **kwargs):
-        """Ends everything."""
+        """Refuses every later use; ``close`` calls it."""
         self._closed = True
 
     def _begin(self, world):
@@ -222,5 +252,14 @@ def _make(partner):
 
 
 def make_vector(num_envs=1, *, agent=0, **options):
-    """``num_envs`` worlds with one learner each, for ``gymnasium.make_vec``."""
+    """Worlds with one learner each, for ``gymnasium.make_vec``.
+
+    Args:
+        num_envs: the number of worlds.
+        agent: the learner, 0 or 1.
+        options: as of :class:`PhaseVectorEnv`.
+
+    Raises:
+        PhaseError: for an invalid argument.
+    """
     return PhaseVectorEnv(num_envs, agent=agent, **options)
