@@ -55,8 +55,7 @@ impl PythonObserver {
         self.answer(&inference.map_err(raise)?)
     }
 
-    /// The answer of a batch inference of the rows seen so far, as JSON. `PhaseError` before a step was
-    /// watched.
+    /// The answer of a batch inference of the rows seen so far, as JSON.
     fn inference(&self, py: Python<'_>) -> PyResult<String> {
         let inference = py.detach(|| {
             let mut observer = self.observer.lock().unwrap_or_else(PoisonError::into_inner);

@@ -120,9 +120,6 @@ class Observer:
 
         Returns:
             a dict as of :func:`infer`, without ``details``.
-
-        Raises:
-            PhaseError: if no step has been watched.
         """
         return _answer(self._native.inference())
 
