@@ -89,8 +89,8 @@ impl Mind {
     }
 
     /// Observes and decides; the number of the action. `observation` is (OBSERVATION_SIZE,); `action` is the
-    /// one that the agent took since its last decision, if it is another than was decided. `PhaseError` for an
-    /// invalid action, and for numbers that are no observation of this agent.
+    /// one that the agent took since its last decision, if it is another than was decided. `PhaseError` for
+    /// an invalid action, and for numbers that are no observation of this agent.
     #[pyo3(signature = (observation, action))]
     fn decide(
         &self,

@@ -1,4 +1,4 @@
-//! What is played from outside is what is simulated, and rewards are those of Equation 1.
+//! Minds that play from outside make the simulated event, and rewards are those of Equation 1.
 
 use phase_minds::{Agent, MindParameters};
 use phase_model::{
@@ -17,7 +17,10 @@ fn scene(alpha: i8) -> Scene {
         let start = json!({ "x": place.x, "y": place.y, "angle": 0 });
         json!({ "size_level": 0, "strength_level": 2, "alpha": alpha, "start": start, "goal": goal })
     };
-    let goal = |subject: usize, sign: i8| json!({ "kind": "agent_on_landmark", "agent": subject, "landmark": 0, "sign": sign });
+    let goal = |subject: usize, sign: i8| {
+        let kind = "agent_on_landmark";
+        json!({ "kind": kind, "agent": subject, "landmark": 0, "sign": sign })
+    };
     let agents =
         [agent(0, arena::LANDMARKS[0], goal(0, 1)), agent(alpha, Vec2::new(23.5, 8.0), goal(subject, sign))];
     let scene = json!({ "layout": { "base": 0 }, "objects": [], "event": "independent", "agents": agents });

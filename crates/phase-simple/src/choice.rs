@@ -7,8 +7,8 @@
 //! ```
 //! use phase_simple::choice::{CHOICES, Chance};
 //!
-//! // The mind chooses the first action with 0.6, the second with 0.4; the motion is twice as likely under the
-//! // second.
+//! // The mind chooses the first action with 0.6, the second with 0.4; the motion is twice as likely under
+//! // the second.
 //! let mut policy = [0.0; CHOICES];
 //! let mut likelihoods = [0.0; CHOICES];
 //! (policy[0], policy[1]) = (0.6, 0.4);

@@ -85,8 +85,8 @@ fn run_chains(
     Ok(Some(Inference { posterior, minds, impression: None, accepted, simulated: simulations.count() }))
 }
 
-/// Prepares an event and infers what explains it, without a guide: [`PreparedEvent::new`] and [`infer`] in one
-/// call that cannot be cancelled. The front page has an example.
+/// Prepares an event and infers what explains it, without a guide: [`PreparedEvent::new`] and [`infer`] in
+/// one call that cannot be cancelled. The front page has an example.
 ///
 /// # Errors
 /// Invalid parameters of the agents' search.

@@ -17,13 +17,19 @@ proptest! {
 
     /// A constant added to all values is added to the result, however great it is.
     #[test]
-    fn log_sum_exp_does_not_overflow(logs in prop::collection::vec(-5.0..5.0, 1..20), shift in -1e6..1e6_f64) {
+    fn log_sum_exp_does_not_overflow(
+        logs in prop::collection::vec(-5.0..5.0, 1..20),
+        shift in -1e6..1e6_f64,
+    ) {
         let shifted = log_sum_exp(logs.iter().map(|log| log + shift));
         prop_assert!((shifted - shift - defined(&logs)).abs() < 1e-8);
     }
 
     #[test]
-    fn log_softmax_has_probabilities_that_sum_to_1(logs in prop::collection::vec(-5.0..5.0, 1..20), shift in -1e6..1e6_f64) {
+    fn log_softmax_has_probabilities_that_sum_to_1(
+        logs in prop::collection::vec(-5.0..5.0, 1..20),
+        shift in -1e6..1e6_f64,
+    ) {
         let whole = defined(&logs);
         let mut found: Vec<f64> = logs.iter().map(|log| log + shift).collect();
         log_softmax(&mut found);

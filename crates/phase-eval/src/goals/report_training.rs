@@ -55,7 +55,8 @@ pub enum ProtocolError {
 
 impl ReportTraining {
     /// Labels the agreement of the model's reports with the ratings that it was fitted to, and adds that of
-    /// folds held out if all of the events were evaluated. `events_sha256` is the digest of the events of the summary.
+    /// folds held out if all of the events were evaluated. `events_sha256` is the digest of the events of the
+    /// summary.
     pub fn label(&self, summary: &mut RecognitionSummary, events_sha256: &str) {
         // Only where reports are predicted beside the posterior is there one for itself.
         if events_sha256 != self.events_sha256 || summary.relation_agreement.is_none() {

@@ -15,8 +15,8 @@ pub use weights::{Weights, WeightsError};
 
 use phase_model::{AGENT_COUNT, AgentId, Body, MAX_ENTITIES, Size, Strength};
 
-/// A proposal distribution over strengths, for Algorithm 2: the guess, from motion alone, at how strong an agent
-/// is.
+/// A proposal distribution over strengths, for Algorithm 2: the guess, from motion alone, at how strong an
+/// agent is.
 pub trait StrengthCue: Sync {
     /// ln Q(f | S) of each level for an agent of a size, from the rows of a time window. The probabilities
     /// sum to 1.
