@@ -56,7 +56,3 @@ pub mod verify;
 pub mod video_table;
 
 pub use error::{DatasetProblem, ExportError};
-
-/// The names of colours in the files of a dataset.
-pub const NAMES: phase_model::words::Names =
-    phase_model::words::Names { objects: ["blue", "pink"], ..phase_model::words::Names::PAPER };

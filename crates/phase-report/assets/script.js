@@ -1,23 +1,18 @@
 "use strict";
 const FRAMES_PER_SECOND = 20;
 const FRAMES_PER_STEP = 5;
-const { texts, events } = JSON.parse(document.getElementById("timelines").textContent);
+const { texts, names, events } = JSON.parse(document.getElementById("timelines").textContent);
 const cards = [...document.querySelectorAll(".card")];
-const NAMES = {
-  "agent 0": "red agent", "agent 1": "green agent", "object 0": "blue object", "object 1": "pink object",
-  "landmark 0": "blue landmark", "landmark 1": "green landmark", "landmark 2": "red landmark",
-  "landmark 3": "yellow landmark",
-};
 
 // Writes a subgoal such as "Attach(agent 0, object 1)" with the colours of the video.
 function write(place, text) {
   if (place.dataset.text === text) return;
   place.dataset.text = text;
   const pieces = text.split(/((?:agent|object|landmark) \d)/).map((piece) => {
-    if (!(piece in NAMES)) return piece;
+    if (!(piece in names)) return piece;
     const chip = document.createElement("span");
     chip.className = "chip " + piece.split(" ")[0] + " " + piece.replace(" ", "");
-    chip.textContent = NAMES[piece];
+    chip.textContent = names[piece];
     return chip;
   });
   place.replaceChildren(...pieces);

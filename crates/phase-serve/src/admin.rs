@@ -10,6 +10,7 @@ use axum::{
     routing::{delete, get},
 };
 use phase_event::Recording;
+use phase_model::words::Names;
 use serde_json::{Value, json};
 use std::{fs, path::Path as FilePath, sync::Arc};
 
@@ -43,7 +44,11 @@ async fn status(State(app): State<Arc<App>>, headers: HeaderMap) -> Result<Json<
         .collect();
     let recordings = files(&app.rooms.events())?.len();
     Ok(Json(json!({
-        "rooms": rooms, "most_rooms": app.settings.rooms, "scenes": scenes, "recordings": recordings,
+        "agents": Names::PAPER.agents,
+        "rooms": rooms,
+        "most_rooms": app.settings.rooms,
+        "scenes": scenes,
+        "recordings": recordings,
     })))
 }
 

@@ -69,7 +69,9 @@ fn rubbish_is_refused_in_a_sentence() {
     let admin = [("Authorization", bearer.as_str())];
     assert_eq!(server.ask("DELETE", "/admin/api/rooms/..%2f..", &admin, "").status, 404);
     assert_eq!(server.ask("GET", "/admin/api/events.json", &admin, "").status, 404);
-    assert_eq!(server.ask("GET", "/admin/api/status", &admin, "").json()["rooms"], json!([]));
+    let status = server.ask("GET", "/admin/api/status", &admin, "").json();
+    assert_eq!(status["rooms"], json!([]));
+    assert_eq!(status["agents"], json!(["red", "green"]));
 }
 
 #[test]

@@ -1,8 +1,11 @@
 //! One event as the values of its columns.
 
-use crate::{NAMES, manifest::EventEntry};
+use crate::manifest::EventEntry;
 use phase_event::{Event, Recording, SimulationRecord, Step, pairs_in_contact, substep_row};
-use phase_model::{AGENT_COUNT, AgentId, AgentSpec, Goal, ObjectId, State, words};
+use phase_model::{
+    AGENT_COUNT, AgentId, AgentSpec, Goal, ObjectId, State,
+    words::{self, Names},
+};
 
 /// An event, with what the manifest states about its file.
 pub(super) struct Row<'a> {
@@ -27,7 +30,7 @@ impl Row<'_> {
     /// The goals as the end of the sentence "it wants to …".
     pub(super) fn goal_words(&self) -> Vec<String> {
         let goals = AgentId::ALL.into_iter().zip(self.recording.scene.goals());
-        goals.map(|(agent, goal)| NAMES.plain(&words::wants_to(goal, agent))).collect()
+        goals.map(|(agent, goal)| Names::PAPER.plain(&words::wants_to(goal, agent))).collect()
     }
 
     pub(super) fn walls(&self) -> Vec<Vec<f32>> {

@@ -6,15 +6,14 @@ mod timeline;
 pub use timeline::Timeline;
 
 use phase_dataset::{
-    NAMES,
     event_set::set_video_path,
     manifest::{AgentEntry, EventEntry, PAGE_FILE},
 };
 use phase_document::markup::{escape, escape_script};
 use phase_model::{
-    AgentId, Attitude, Entity, Goal, ObjectId, Sign, Size, Strength,
+    AgentId, Attitude, Entity, ObjectId, Sign, Size, Strength,
     arena::STEP_VIDEO_SECONDS,
-    words::{self, Fragment},
+    words::{self, Fragment, Names},
 };
 use std::{collections::BTreeMap, fmt::Write as _};
 
@@ -192,19 +191,9 @@ fn manners(event: &EventEntry) -> impl Iterator<Item = &'static str> {
     event.manners.iter().map(|manner| manner.name())
 }
 
-/// The distinct goals of an event's agents.
+/// The distinct goals of an event's agents, in few words.
 fn goals(event: &EventEntry) -> Vec<String> {
-    let text = |agent: &AgentEntry| {
-        let landmark = agent.goal.landmark().map_or_else(String::new, |it| NAMES.landmark_and_place(it));
-        let on = if agent.goal.sign() == Sign::Positive { "on" } else { "off" };
-        match agent.goal {
-            Goal::AgentOnLandmark { .. } => format!("agent {on} {landmark}"),
-            Goal::ObjectOnLandmark { .. } => format!("object {on} {landmark}"),
-            Goal::Touch { sign: Sign::Positive, .. } => "catch the other".into(),
-            Goal::Touch { sign: Sign::Negative, .. } => "get away from the other".into(),
-        }
-    };
-    let mut texts: Vec<String> = event.agents.iter().map(text).collect();
+    let mut texts = AgentId::ALL.map(|who| Names::PAPER.wants_briefly(event.agents[who].goal, who)).to_vec();
     texts.dedup();
     texts
 }
@@ -298,5 +287,5 @@ fn chip(piece: Fragment) -> String {
         Fragment::Entity(Entity::Object(object)) => format!("object object{object}"),
         Fragment::Landmark(landmark) => format!("landmark landmark{landmark}"),
     };
-    format!("<span class=\"chip {class}\">{}</span>", escape(&NAMES.plain(&[piece])))
+    format!("<span class=\"chip {class}\">{}</span>", escape(&Names::PAPER.plain(&[piece])))
 }

@@ -2,7 +2,7 @@
 
 use phase_dataset::manifest::EventEntry;
 use phase_event::Event;
-use phase_model::{AGENT_COUNT, AgentId};
+use phase_model::{AGENT_COUNT, AgentId, Entity, LandmarkId, words::Names};
 use serde_json::{Map, Value, json};
 use std::collections::BTreeMap;
 
@@ -38,9 +38,9 @@ impl Timeline {
     }
 }
 
-/// All timelines for the page's script: `texts`, and for each event and agent the changes, as steps and
-/// indices into `texts` alternating, and the shares, a base-36 digit for each step from 0 for none to z for
-/// all.
+/// All timelines for the page's script: `texts`; `names`, the colours of what they mention, such as
+/// `light blue object` for `object 0`; and for each event and agent the changes, as steps and indices into
+/// `texts` alternating, and the shares, a base-36 digit for each step from 0 for none to z for all.
 pub(super) fn table(events: &[EventEntry], timelines: &[Timeline]) -> Value {
     let mut places: BTreeMap<&str, usize> = BTreeMap::new();
     let mut texts: Vec<&str> = Vec::new();
@@ -61,7 +61,15 @@ pub(super) fn table(events: &[EventEntry], timelines: &[Timeline]) -> Value {
         }
         table.insert(event.id.clone(), tracks.into());
     }
-    json!({ "texts": texts, "events": table })
+    json!({ "texts": texts, "names": names(), "events": table })
+}
+
+/// Each entity and landmark by its id, as subgoals write it, with its name in the videos.
+fn names() -> Map<String, Value> {
+    let entities = Entity::ALL.into_iter().map(|it| (it.to_string(), Names::PAPER.entity(it)));
+    let landmarks =
+        LandmarkId::ALL.into_iter().map(|it| (format!("landmark {it}"), Names::PAPER.landmark(it)));
+    entities.chain(landmarks).map(|(id, name)| (id, name.into())).collect()
 }
 
 fn digit(share: f32) -> char {

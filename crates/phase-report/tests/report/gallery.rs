@@ -33,11 +33,11 @@ fn a_card_says_what_the_event_is() {
         "data-kind=\"helping\"",
         "data-relation=\"friendly\"",
         "data-split=\"train\"",
-        "data-goal=\"object on green landmark (top right)\"",
+        "data-goal=\"light blue object on green\"",
         "friendly",
         "red agent",
         "green agent",
-        "blue object",
+        "light blue object",
         "<strong>helps</strong>",
         "green landmark (top right)",
         "layout 20, flip 3",
@@ -70,7 +70,7 @@ fn the_filters_count() {
     for (filter, option) in [
         ("kind", "helping (2)"),
         ("relation", "friendly (2)"),
-        ("goal", "object on green landmark (top right) (2)"),
+        ("goal", "light blue object on green (2)"),
         ("split", "train (1)"),
         ("split", "test (1)"),
     ] {
@@ -95,6 +95,9 @@ fn subgoals_and_shares_change_with_the_steps() {
     let (manifest, timelines) = example("demo-0000");
     let value = embedded(&page(&manifest, &timelines));
     assert_eq!(value["texts"], json!(["Attach(agent 0, object 1)", "not Touch(agent 0, agent 1)", "Stay"]));
+    assert_eq!(value["names"]["agent 0"], "red agent");
+    assert_eq!(value["names"]["object 0"], "light blue object");
+    assert_eq!(value["names"]["landmark 3"], "yellow landmark");
     let tracks = &value["events"]["demo-0000"];
     assert_eq!(*tracks, json!([[[0, 0, 1, 1, 2, 0, 3, 1], "ssss"], [[0, 2], "0000"]]));
 }

@@ -3,6 +3,8 @@
 const at = (id) => document.getElementById(id);
 let token = location.hash.slice(1);
 let timer = 0;
+// Colours of both agents, as the server says.
+let colours = [];
 
 const say = (text, wrong = false) => {
   at("message").textContent = text;
@@ -54,11 +56,12 @@ export async function save(path, name) {
 async function refresh() {
   const answer = await ask("api/status");
   if (!answer) return false;
-  const { rooms, most_rooms, scenes, recordings } = await answer.json();
+  const { agents, rooms, most_rooms, scenes, recordings } = await answer.json();
+  colours = agents;
   at("count").textContent = `${rooms.length} of at most ${most_rooms} games, ${recordings} recordings.`;
   const trip = (ms) => (ms === null ? "–" : `${ms} ms`);
   at("rooms").replaceChildren(table(
-    ["room", "doing", "round", "red", "green", "round trip", "end"],
+    ["room", "doing", "round", ...agents, "round trip", "end"],
     rooms.map(({ room, doing, round, rounds, connected, round_trip_ms }) => [
       room, doing, `${round} of ${rounds}`, connected[0] ? "here" : "–", connected[1] ? "here" : "–", round_trip_ms.map(trip).join(", "),
       button("End", async () => (await ask(`api/rooms/${encodeURIComponent(room)}`, { method: "DELETE" })) && refresh()),
@@ -89,7 +92,7 @@ at("open").addEventListener("click", async () => {
   const { room, tokens } = await answer.json();
   const item = document.createElement("li");
   item.append(`Room ${room}: `);
-  ["red", "green"].forEach((name, k) => {
+  colours.forEach((name, k) => {
     const href = new URL(`../play/#${tokens[k]}`, location.href).href;
     item.append(Object.assign(document.createElement("a"), { href, textContent: `player ${name}` }), " ");
   });
