@@ -4,13 +4,14 @@ use core::hint::black_box;
 use criterion::Criterion;
 use phase_model::{Grip, Layout, ObjectId, PhysicsConfig, Side, Vec2, physics::AgentBody};
 use phase_navigation::{
-    Assembly, AssemblyCosts, AssemblyField, Disc, Field, IMPASSABLE_COST, Map, Mover, NavigationCosts, Target,
+    Assembly, AssemblyField, AssemblyParameters, Disc, Field, IMPASSABLE_COST, Map, Mover,
+    NavigationParameters, Target,
 };
 
 fn main() {
     let mut criterion = Criterion::default().configure_from_args();
     let map = Map::new(Layout::new(16, None).expect("layout 16 exists"));
-    let costs = NavigationCosts { impassable: 10.0, obstruction: 4.0 };
+    let costs = NavigationParameters { impassable: 10.0, obstruction: 4.0, ..NavigationParameters::DEFAULT };
     let mover = Mover { half_width: 1.2 };
     let target = Target::Point(Vec2::new(8.5, 19.5));
     let bodies = [(9.0, 9.0), (18.0, 7.0)].map(|(x, y)| Disc { centre: Vec2::new(x, y), radius: 1.0 });
@@ -35,7 +36,7 @@ fn main() {
         bencher.iter(|| map.route_cost(black_box(from), to, 2.4, map.gaps(), IMPASSABLE_COST));
     });
     let assembly = both_hold();
-    let costs = AssemblyCosts { turning: 1.0, collision: 20.0 };
+    let costs = AssemblyParameters { collision: 20.0, ..AssemblyParameters::DEFAULT };
     criterion.bench_function("navigation/assembly field", |bencher| {
         bencher.iter(|| AssemblyField::new(&map, black_box(target), 1.414, &assembly, costs));
     });

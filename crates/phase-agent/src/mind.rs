@@ -11,7 +11,7 @@ use phase_model::{
     Predicate, PredicateTarget, Scene, State, Subgoal,
     random::{Purpose, stream},
 };
-use phase_navigation::{NavigationCosts, Navigator};
+use phase_navigation::Navigator;
 use phase_planner::{Candidate, Plan, Planner, value};
 use phase_pomcp::{Pomcp, PomcpError, PomcpSettings};
 use rand::{Rng, RngExt};
@@ -71,19 +71,16 @@ impl<D: Dynamics> Mind<D> {
             attitude,
             parameters,
             dynamics,
-            planner: Planner::with_costs(
+            planner: Planner::with_parameters(
                 physics.clone(),
                 scene.layout,
                 agent,
                 scene.goals(),
                 attitude,
-                parameters.planner_costs(),
+                parameters.planning(),
             ),
             pomcp,
-            navigator: Navigator::new(
-                scene.layout,
-                NavigationCosts { impassable: parameters.impassable, obstruction: parameters.obstruction },
-            ),
+            navigator: Navigator::new(scene.layout, parameters.navigation()),
             physics,
         })
     }

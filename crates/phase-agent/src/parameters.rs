@@ -1,6 +1,8 @@
 //! The parameters of a PHASE mind.
 
-use phase_planner::PlannerCosts;
+use phase_model::arena;
+use phase_navigation::{AssemblyParameters, NavigationParameters};
+use phase_planner::PlannerParameters;
 use serde::{Deserialize, Serialize};
 
 /// The dynamics in which an agent searches. Its belief is always predicted with exact steps.
@@ -127,13 +129,62 @@ pub struct PhaseParameters {
     /// Cost of 1 u of travel for or against the other's goal, relative to 1 u that it spares or costs the
     /// other, 0 to 1.
     pub effort: f32,
+    /// Clearance (u) beside the other's path within which an agent without a part in the other's plan gives
+    /// way; at least 0.
+    pub yielding_clearance: f32,
+    /// Distance (u) behind a door at which an object is expected to lie that was passed through it; at least 0.
+    pub passing_depth: f32,
+    /// Depth (u) inside a room at which a body counts as having entered it, 0.1 to 10.
+    pub room_depth: f32,
+    /// Cost of each unit of a path within the margin of a wall's end (dimensionless), beside its length; at
+    /// least 0.
+    pub corner: f32,
+    /// Distance (u) to a bend of a path below which the bend is cut; above 0.
+    pub bend_distance: f32,
+    /// Overlap (u) of an object and its holders with walls that does not count as a collision on their way; at
+    /// least 0.
+    pub wall_overlap: f32,
+    /// Rise of the cost of a way from the nearest place without a collision into one, relative to the length of
+    /// that move, for an object and its holders; at least 0.
+    pub edge_rise: f32,
+    /// Length (u) of the way ahead over which the motion of an object and its holders is averaged; at least 0.
+    pub descent_length: f32,
 }
 
 impl PhaseParameters {
-    /// The costs of plans.
+    /// The parameters of plans.
     #[must_use]
-    pub const fn planner_costs(&self) -> PlannerCosts {
-        PlannerCosts { grasp: self.grasp, impassable: self.impassable, effort: self.effort }
+    pub const fn planning(&self) -> PlannerParameters {
+        PlannerParameters {
+            grasp: self.grasp,
+            impassable: self.impassable,
+            effort: self.effort,
+            yielding_clearance: self.yielding_clearance,
+            passing_depth: self.passing_depth,
+        }
+    }
+
+    /// The parameters of ways.
+    #[must_use]
+    pub const fn navigation(&self) -> NavigationParameters {
+        NavigationParameters {
+            impassable: self.impassable,
+            obstruction: self.obstruction,
+            corner: self.corner,
+            bend_distance: self.bend_distance,
+        }
+    }
+
+    /// The parameters of the ways of an object and its holders.
+    pub(crate) const fn carrying(&self) -> AssemblyParameters {
+        AssemblyParameters {
+            turning: self.turning,
+            // So that crossing a wall for the length of a room is as bad as a door that is too narrow.
+            collision: self.impassable / (0.5 * arena::SIDE),
+            overlap: self.wall_overlap,
+            edge_rise: self.edge_rise,
+            descent_length: self.descent_length,
+        }
     }
 }
 
@@ -177,6 +228,14 @@ impl Default for PhaseParameters {
             turning: 1.0,
             impassable: 100.0,
             effort: 0.4,
+            yielding_clearance: 0.4,
+            passing_depth: 1.2,
+            room_depth: 1.5,
+            corner: 3.0,
+            bend_distance: 0.2,
+            wall_overlap: 0.15,
+            edge_rise: 2.0,
+            descent_length: 0.75,
         }
     }
 }

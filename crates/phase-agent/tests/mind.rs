@@ -14,7 +14,7 @@ use phase_model::{
     Strength, Subgoal, Vec2, arena,
     random::{Purpose, stream},
 };
-use phase_navigation::{NavigationCosts, Navigator};
+use phase_navigation::Navigator;
 use phase_perception::observe;
 use phase_pomcp::GenerativeModel;
 
@@ -47,7 +47,7 @@ fn achieve(predicate: Predicate) -> Subgoal {
 /// A subgoal of agent 0, compiled in a state, by a mind that believes that the other agent only coasts.
 fn compiled<'a>(physics: &'a PhysicsConfig, scene: &Scene, state: &State, subgoal: Subgoal) -> Objective<'a> {
     let parameters = PhaseParameters { other_initiative: 0.0, ..PhaseParameters::default() };
-    let costs = NavigationCosts { impassable: parameters.impassable, obstruction: parameters.obstruction };
+    let costs = parameters.navigation();
     let mut navigator = Navigator::new(scene.layout, costs);
     Objective::new(physics, &mut navigator, state, AgentId::ZERO, subgoal, &parameters)
 }

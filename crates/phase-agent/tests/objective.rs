@@ -5,7 +5,7 @@ use phase_model::{
     AgentId, Body, Entity, Grip, LandmarkId, Layout, Literal, ObjectId, PhysicsConfig, Predicate,
     PredicateTarget, Side, Size, State, Strength, Subgoal, Vec2, arena, physics::AgentBody,
 };
-use phase_navigation::{NavigationCosts, Navigator};
+use phase_navigation::Navigator;
 
 /// A narrow door (x 6 to 8.5, y 12) between rooms 0 (above) and 3; agent 0 of some size, a small agent 1, a
 /// small object.
@@ -37,7 +37,7 @@ fn state(agent: Vec2, angle: f32, other: Vec2, object: Vec2) -> State {
 fn evaluate(size: Size, state: &State, literal: Literal) -> (f32, Vec2) {
     let physics = physics(size);
     let parameters = PhaseParameters::default();
-    let costs = NavigationCosts { impassable: parameters.impassable, obstruction: parameters.obstruction };
+    let costs = parameters.navigation();
     let mut navigator = Navigator::new(layout(), costs);
     let subgoal = Subgoal::Achieve(literal);
     let objective = Objective::new(&physics, &mut navigator, state, AgentId::ZERO, subgoal, &parameters);

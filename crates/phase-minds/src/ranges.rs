@@ -67,7 +67,7 @@ pub(crate) fn check(parameters: &[Ranged]) -> Result<(), RangeError> {
     Ok(())
 }
 
-pub(crate) fn of_phase(parameters: &PhaseParameters) -> [Ranged; 36] {
+pub(crate) fn of_phase(parameters: &PhaseParameters) -> [Ranged; 44] {
     use Range::{AtLeastOne, NotNegative, Positive, Share, Spacing};
     [
         ("particles", parameters.particles as f64, AtLeastOne),
@@ -106,6 +106,14 @@ pub(crate) fn of_phase(parameters: &PhaseParameters) -> [Ranged; 36] {
         ("turning", parameters.turning.into(), NotNegative),
         ("impassable", parameters.impassable.into(), NotNegative),
         ("effort", parameters.effort.into(), Share),
+        ("yielding_clearance", parameters.yielding_clearance.into(), NotNegative),
+        ("passing_depth", parameters.passing_depth.into(), NotNegative),
+        ("room_depth", parameters.room_depth.into(), Spacing),
+        ("corner", parameters.corner.into(), NotNegative),
+        ("bend_distance", parameters.bend_distance.into(), Positive),
+        ("wall_overlap", parameters.wall_overlap.into(), NotNegative),
+        ("edge_rise", parameters.edge_rise.into(), NotNegative),
+        ("descent_length", parameters.descent_length.into(), NotNegative),
     ]
 }
 

@@ -9,6 +9,8 @@ use thiserror::Error;
 
 /// Length of a slot, from the centre to the boundary (u).
 pub const SLOT_LENGTH: f32 = 10.0;
+/// Clearance that ways keep between a body and the ends of a door (u); less where the door leaves no room for it.
+pub const DOOR_CLEARANCE: f32 = 0.1;
 
 /// The two rooms on either side of each slot.
 pub const SLOT_ROOMS: [(RoomId, RoomId); 4] = [

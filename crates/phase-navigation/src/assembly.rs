@@ -5,10 +5,6 @@ use phase_model::{
     geometry::{Outline, trapezoid},
 };
 
-/// Overlap with walls that does not count as a collision (u): grips yield a little, and orientations and positions
-/// are rounded to a grid.
-const TOLERANCE: f32 = 0.15;
-
 /// An object (the *load*) with its holders, in the frame of the object: its centre, and its angle.
 ///
 /// Grips are rigid, so the assembly is the same for as long as they last.
@@ -57,16 +53,16 @@ impl Assembly {
         self.holders.iter().flatten().count()
     }
 
-    /// The outlines, reduced by [`TOLERANCE`], when the load has an angle (rad).
-    pub(crate) fn shape(&self, angle: f32) -> Shape {
+    /// The outlines, reduced by an overlap (u), when the load has an angle (rad).
+    pub(crate) fn shape(&self, angle: f32, overlap: f32) -> Shape {
         let turn = rotation(angle);
-        let load = Outline::Disc { centre: Vec2::ZERO, radius: (self.load_radius - TOLERANCE).max(0.0) };
+        let load = Outline::Disc { centre: Vec2::ZERO, radius: (self.load_radius - overlap).max(0.0) };
         let mut shape =
             Shape { outlines: vec![load], spines: Vec::new(), min: Vec2::INFINITY, max: Vec2::NEG_INFINITY };
         for holder in self.holders.iter().flatten() {
             let centre = turn.rotate(holder.position);
             let own = rotation(angle + holder.angle);
-            let corners = trapezoid((holder.radius - TOLERANCE).max(0.0));
+            let corners = trapezoid((holder.radius - overlap).max(0.0));
             shape.outlines.push(Outline::Trapezoid(corners.map(|corner| centre + own.rotate(corner))));
             shape.spines.push(Segment { a: Vec2::ZERO, b: centre });
         }

@@ -1,21 +1,13 @@
 //! The cost to go of an assembly that has to bring its load somewhere.
 
 use crate::{
-    Assembly, AssemblyCosts, Map, Target,
+    Assembly, AssemblyParameters, Map, Target,
+    accuracy::{LEAST_BUCKET, LEAST_TURN},
     buckets::Buckets,
     lattice::{self, MOVES, NODES, Node, ORIENTATIONS, SIDE, SPACING, TURN},
 };
 use phase_model::{Segment, Vec2};
 
-/// Path length over which a descent is averaged (u).
-const LOOK_AHEAD: f32 = 0.75;
-/// Rotation along a descent below which it is a matter of rounding, in steps of the grid.
-const LEAST_TURN: f32 = 0.5;
-/// Rise of the values from the nearest free configuration into a collision, relative to the cost of the same move
-/// outside (dimensionless): enough to lead out, and little enough for a body that touches a wall.
-const EDGE_RISE: f32 = 2.0;
-/// Least width of a bucket of the queue (u).
-const LEAST_BUCKET: f32 = 0.05;
 /// Instead of a move: the target is next.
 const ARRIVED: u8 = u8::MAX;
 
@@ -25,7 +17,7 @@ pub struct AssemblyField {
     target: Target,
     assembly: Assembly,
     walls: Vec<Segment>,
-    turning: f32,
+    parameters: AssemblyParameters,
     /// Cost to go less the load's straight distance to the target (u), by node: flat where the way is straight.
     excess: Vec<f32>,
     /// Whether each node is without collisions.
@@ -47,14 +39,21 @@ impl AssemblyField {
     /// The field of a target. A load closer to a target point than `reach` (u) has arrived in every orientation
     /// without collisions.
     #[must_use]
-    pub fn new(map: &Map, target: Target, reach: f32, assembly: &Assembly, costs: AssemblyCosts) -> Self {
-        let free = free_nodes(map, assembly);
-        let (mut cost, mut moves) = (vec![f32::INFINITY; NODES], vec![ARRIVED; NODES]);
-        let steps = lattice::move_costs(costs.turning);
+    pub fn new(
+        map: &Map,
+        target: Target,
+        reach: f32,
+        assembly: &Assembly,
+        parameters: AssemblyParameters,
+    ) -> Self {
+        let free = free_nodes(map, assembly, parameters.overlap);
+        let mut cost = vec![f32::INFINITY; NODES];
+        let mut moves = vec![ARRIVED; NODES];
+        let steps = lattice::move_costs(parameters.turning);
         let width = steps.iter().copied().fold(f32::INFINITY, f32::min).max(LEAST_BUCKET);
         let mut queue = Buckets::new(width);
         let mut is_settled = vec![false; NODES];
-        seed(&mut cost, &free, map, target, reach, costs.collision);
+        seed(&mut cost, &free, map, target, reach, parameters.collision);
         for (index, &value) in cost.iter().enumerate().filter(|(_, value)| value.is_finite()) {
             queue.push(index as u32, value);
         }
@@ -68,7 +67,7 @@ impl AssemblyField {
             for (step, &length) in steps.iter().enumerate() {
                 let Some(next) = node.after(step).map(Node::index) else { continue };
                 let collisions = 0.5 * (f32::from(!free[index]) + f32::from(!free[next]));
-                let value = cost[index] + length * (1.0 + costs.collision * collisions);
+                let value = cost[index] + length * (1.0 + parameters.collision * collisions);
                 if value < cost[next] {
                     cost[next] = value;
                     moves[next] = lattice::opposite(step) as u8;
@@ -80,26 +79,18 @@ impl AssemblyField {
         let excess = (0..NODES)
             .map(|index| {
                 let node = Node::from_index(index);
-                let (value, step) = capped(node, &cost, &free, &steps);
+                let (value, step) = capped(node, &cost, &free, &steps, parameters.edge_rise);
                 if let Some(step) = step {
                     moves[index] = step as u8;
                 }
                 value - straight(target, node.position())
             })
             .collect();
-        Self {
-            target,
-            assembly: *assembly,
-            walls: map.walls().to_vec(),
-            turning: costs.turning,
-            excess,
-            free,
-            moves,
-        }
+        Self { target, assembly: *assembly, walls: map.walls().to_vec(), parameters, excess, free, moves }
     }
 
     /// Cost of the cheapest motion to the target (u) from a position of the load (u) and its angle (rad): length of
-    /// the load's path, [`AssemblyCosts::turning`] for its rotation about the load, and the price of collisions.
+    /// the load's path, [`AssemblyParameters::turning`] for its rotation about the load, and the price of collisions.
     /// Continuous, finite and at least 0.
     #[must_use]
     pub fn distance(&self, load: Vec2, angle: f32) -> f32 {
@@ -124,16 +115,16 @@ impl AssemblyField {
             }
             let place = node.position();
             let to_go = self.excess[node.index()] + straight(self.target, place);
-            let cost = to_go + load.distance(place) + self.turning * TURN * offset(k).abs();
+            let cost = to_go + load.distance(place) + self.parameters.turning * TURN * offset(k).abs();
             if cost < best.0 {
                 best = (cost, node, offset(k));
             }
         }
         let (_, mut node, mut turns) = best;
         let mut end = node.position();
-        let mut length = load.distance(end) + self.turning * TURN * turns.abs();
-        let steps = lattice::move_costs(self.turning);
-        while length < LOOK_AHEAD {
+        let mut length = load.distance(end) + self.parameters.turning * TURN * turns.abs();
+        let steps = lattice::move_costs(self.parameters.turning);
+        while length < self.parameters.descent_length {
             let step = self.moves[node.index()];
             let next = node.after(usize::from(step)).filter(|_| step != ARRIVED);
             let Some(next) = next else {
@@ -142,7 +133,8 @@ impl AssemblyField {
             };
             length += steps[usize::from(step)];
             turns += lattice::turns(usize::from(step));
-            (node, end) = (next, next.position());
+            node = next;
+            end = next.position();
         }
         let way = end - load;
         let direction = if way.length() < 0.5 * SPACING && turns.abs() >= LEAST_TURN {
@@ -156,15 +148,15 @@ impl AssemblyField {
     /// Whether the assembly would cross a wall or leave the arena there, by more than a small tolerance.
     #[must_use]
     pub fn collides(&self, load: Vec2, angle: f32) -> bool {
-        self.assembly.shape(angle).collides(load, &self.walls)
+        self.assembly.shape(angle, self.parameters.overlap).collides(load, &self.walls)
     }
 }
 
 /// The nodes at which the assembly touches no wall.
-fn free_nodes(map: &Map, assembly: &Assembly) -> Vec<bool> {
+fn free_nodes(map: &Map, assembly: &Assembly, overlap: f32) -> Vec<bool> {
     let mut free = Vec::with_capacity(NODES);
     for orientation in 0..ORIENTATIONS {
-        let shape = assembly.shape(orientation as f32 * TURN);
+        let shape = assembly.shape(orientation as f32 * TURN, overlap);
         for index in 0..SIDE * SIDE {
             let (row, column) = (index / SIDE, index % SIDE);
             free.push(!shape.collides(Node { column, row, orientation }.position(), map.walls()));
@@ -235,14 +227,20 @@ fn extend_straight(cost: &mut [f32], free: &[bool], point: Vec2) {
 
 /// The cost of a node; in a collision not more than a little above that of the best free node beside it, with the move
 /// that leads there.
-fn capped(node: Node, cost: &[f32], free: &[bool], steps: &[f32; MOVES]) -> (f32, Option<usize>) {
+fn capped(
+    node: Node,
+    cost: &[f32],
+    free: &[bool],
+    steps: &[f32; MOVES],
+    edge_rise: f32,
+) -> (f32, Option<usize>) {
     let mut best = (cost[node.index()], None);
     if free[node.index()] {
         return best;
     }
     for (step, &length) in steps.iter().enumerate() {
         let Some(next) = node.after(step).map(Node::index) else { continue };
-        let value = cost[next] + EDGE_RISE * length;
+        let value = cost[next] + edge_rise * length;
         if free[next] && value < best.0 {
             best = (value, Some(step));
         }

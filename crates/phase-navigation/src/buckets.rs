@@ -1,7 +1,6 @@
 //! A priority queue of nodes by cost, in buckets of equal width.
 
-/// Highest number of a bucket, so that extreme costs do not take all memory; whatever costs more is in no order.
-const LAST: usize = 1 << 16;
+use crate::accuracy::LAST_BUCKET;
 
 /// Nodes by cost (u). A bucket is no wider than the shortest edge, so that the order within it does not matter.
 #[derive(Debug)]
@@ -19,7 +18,7 @@ impl Buckets {
 
     /// Adds a node. A node whose cost falls is added again; whoever takes it out twice finds it settled.
     pub(crate) fn push(&mut self, node: u32, cost: f32) {
-        let bucket = ((cost / self.width) as usize).min(LAST).max(self.first);
+        let bucket = ((cost / self.width) as usize).min(LAST_BUCKET).max(self.first);
         if bucket >= self.buckets.len() {
             self.buckets.resize_with(bucket + 1, Vec::new);
         }

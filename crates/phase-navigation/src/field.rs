@@ -1,16 +1,12 @@
 //! The cost to go of one target for one mover, from any point.
 
 use crate::{
-    Disc, Map, Mover, NavigationCosts, Target,
+    Disc, Map, Mover, NavigationParameters, Target,
+    accuracy::OFF_AXIS,
     terrain::Terrain,
     visibility::{Bend, bends},
 };
 use phase_model::{RoomId, Vec2, arena};
-
-/// Look-ahead of [`Field::direction`] (u): a bend closer than this is cut.
-const LOOK_AHEAD: f32 = 0.2;
-/// Offset of a point on an axis of the arena, where it sees nothing (u).
-const OFF_AXIS: f32 = 1e-3;
 
 /// Travel distances to one target.
 #[derive(Clone, Debug)]
@@ -19,6 +15,8 @@ pub struct Field {
     terrain: Terrain,
     /// Cost of a leg that ends in a closed door (u); each crossing has two.
     toll: f32,
+    /// See [`NavigationParameters::bend_distance`].
+    bend_distance: f32,
     /// In ascending order of cost to go.
     nodes: Vec<Node>,
 }
@@ -43,15 +41,27 @@ struct Way {
 impl Field {
     /// The field of a target for a mover among obstacles.
     #[must_use]
-    pub fn new(map: &Map, target: Target, mover: Mover, obstacles: &[Disc], costs: NavigationCosts) -> Self {
-        let terrain = Terrain::new(map, mover, obstacles, costs);
+    pub fn new(
+        map: &Map,
+        target: Target,
+        mover: Mover,
+        obstacles: &[Disc],
+        parameters: NavigationParameters,
+    ) -> Self {
+        let terrain = Terrain::new(map, mover, obstacles, parameters);
         let target = match target {
             Target::Point(point) => Target::Point(off_axes(point)),
             room @ Target::Room { .. } => room,
         };
         let open = bends(map, &terrain, mover);
         let nodes = Vec::with_capacity(open.len());
-        let mut field = Self { target, terrain, toll: 0.5 * costs.impassable, nodes };
+        let mut field = Self {
+            target,
+            terrain,
+            toll: 0.5 * parameters.impassable,
+            bend_distance: parameters.bend_distance,
+            nodes,
+        };
         field.settle(open);
         field
     }
@@ -92,7 +102,7 @@ impl Field {
         self.target
     }
 
-    /// Cost of the cheapest path from a point to the target (u): its length, and the [`NavigationCosts`] on it.
+    /// Cost of the cheapest path from a point to the target (u): its length, and the prices of [`NavigationParameters`] on it.
     /// At least 0, finite for every finite point, and the straight distance where walls and obstacles
     /// leave the straight line free.
     #[must_use]
@@ -103,7 +113,7 @@ impl Field {
     /// Unit vector of the way to go; zero at the target.
     #[must_use]
     pub fn direction(&self, from: Vec2) -> Vec2 {
-        (self.waypoint(from, LOOK_AHEAD) - from).normalize_or_zero()
+        (self.waypoint(from, self.bend_distance) - from).normalize_or_zero()
     }
 
     /// The point on the cheapest path at a length from its start (u), or its end.

@@ -22,12 +22,12 @@
 //!
 //! ```
 //! use phase_model::{Layout, Vec2};
-//! use phase_navigation::{Field, Map, Mover, NavigationCosts, Target};
+//! use phase_navigation::{Field, Map, Mover, NavigationParameters, Target};
 //!
 //! let map = Map::new(Layout::new(4, None)?);
 //! let (above, below) = (Vec2::new(7.25, 16.0), Vec2::new(7.25, 6.0));
-//! let costs = NavigationCosts { impassable: 10.0, obstruction: 4.0 };
-//! let field = |half_width| Field::new(&map, Target::Point(below), Mover { half_width }, &[], costs);
+//! let parameters = NavigationParameters { impassable: 10.0, ..NavigationParameters::DEFAULT };
+//! let field = |half_width| Field::new(&map, Target::Point(below), Mover { half_width }, &[], parameters);
 //!
 //! assert!((field(1.2).distance(above) - 10.0).abs() < 1e-3);
 //! assert!(field(1.2).direction(above).y < -0.99);
@@ -38,6 +38,7 @@
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 
+mod accuracy;
 mod assembly;
 mod assembly_field;
 mod buckets;
@@ -48,6 +49,7 @@ mod lattice;
 mod map;
 mod navigator;
 mod obstacle;
+mod parameters;
 mod route;
 mod terrain;
 mod visibility;
@@ -57,28 +59,21 @@ pub use assembly::Assembly;
 pub use assembly_field::{AssemblyField, Descent};
 pub use field::Field;
 pub use gaps::Gaps;
-pub use map::{CLEARANCE, Map};
+pub use map::Map;
 pub use navigator::Navigator;
 pub use obstacle::Disc;
+pub use parameters::{AssemblyParameters, IMPASSABLE_COST, NavigationParameters};
 pub use route::Route;
 pub use ways::Crossing;
 
 use phase_model::{RoomId, Vec2};
-
-/// Price of a door that is narrower than the body that is to pass it (u), unless parameters say otherwise: more
-/// than any detour, so that such doors are a last resort, yet finite, so that an agent without a better way still
-/// tries.
-pub const IMPASSABLE_COST: f32 = 100.0;
-
-/// Depth inside a room at which a body counts as having entered it (u).
-pub const ROOM_DEPTH: f32 = 1.5;
 
 /// Where to go.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub enum Target {
     /// A point (u).
     Point(Vec2),
-    /// All points of a room at least `depth` (u, 0 to 10) from its borders with other rooms; see [`ROOM_DEPTH`].
+    /// All points of a room at least `depth` (u, 0 to 10) from its borders with other rooms.
     Room {
         /// The room.
         room: RoomId,
@@ -92,22 +87,4 @@ pub enum Target {
 pub struct Mover {
     /// Half the width of the body (u): 1.5 R for an agent, the radius of an object.
     pub half_width: f32,
-}
-
-/// Costs beside the length of a path.
-#[derive(Clone, Copy, PartialEq, Debug)]
-pub struct NavigationCosts {
-    /// Added for each door on a path that is narrower than the mover (u).
-    pub impassable: f32,
-    /// Added for each unit of length within an obstacle grown by the mover's half width (dimensionless).
-    pub obstruction: f32,
-}
-
-/// Costs of an assembly's motion beside the length of the load's path.
-#[derive(Clone, Copy, PartialEq, Debug)]
-pub struct AssemblyCosts {
-    /// Cost of turning about the load (u/rad).
-    pub turning: f32,
-    /// Added for each unit of cost while the assembly crosses a wall or is outside the arena (dimensionless).
-    pub collision: f32,
 }

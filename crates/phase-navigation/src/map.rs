@@ -4,10 +4,10 @@ use crate::{
     Gaps, Mover,
     ways::{Crossing, Ways, ways},
 };
-use phase_model::{Layout, RoomId, Segment, SlotId, layout::SLOT_LENGTH};
-
-/// Clearance between a mover and the ends of a door (u); less where the door leaves no room for it.
-pub const CLEARANCE: f32 = 0.1;
+use phase_model::{
+    Layout, RoomId, Segment, SlotId,
+    layout::{DOOR_CLEARANCE, SLOT_LENGTH},
+};
 
 /// Rooms, inner walls and openings of a layout, and the ways from room to room.
 ///
@@ -124,14 +124,14 @@ impl Map {
 
     /// The part of a slot that a mover's centre may cross.
     ///
-    /// An end of the opening keeps the mover off by its half width and [`CLEARANCE`], except where there is no
+    /// An end of the opening keeps the mover off by its half width and [`DOOR_CLEARANCE`], except where there is no
     /// wall: at the centre of an arena without walls, and at the boundary of a slot without a wall of its own.
     pub(crate) fn passage(&self, slot: SlotId, mover: Mover) -> Passage {
         let Some((low, high)) = self.gaps.0[slot] else { return Passage::Wall };
         if !self.fits(slot, mover) {
             return Passage::Closed(0.5 * (low + high));
         }
-        let margin = (mover.half_width + CLEARANCE).min(0.5 * (high - low));
+        let margin = (mover.half_width + DOOR_CLEARANCE).min(0.5 * (high - low));
         let from = if self.centre_is_walled() { low + margin } else { low };
         let to = if high - low < SLOT_LENGTH { high - margin } else { high };
         Passage::Open(from, to.max(from))

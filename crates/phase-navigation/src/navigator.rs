@@ -1,16 +1,12 @@
 //! Fields on demand, with a cache.
 
 use crate::{
-    Assembly, AssemblyCosts, AssemblyField, Disc, Field, Map, Mover, NavigationCosts, Target,
+    Assembly, AssemblyField, AssemblyParameters, Disc, Field, Map, Mover, NavigationParameters, Target,
+    accuracy::{ASSEMBLY_FIELDS_KEPT, FIELDS_KEPT},
     cache::{Cache, Key},
 };
 use phase_model::Layout;
 use std::sync::Arc;
-
-/// Number of fields kept.
-const FIELDS: usize = 64;
-/// Number of fields of assemblies kept; each takes 150 kB.
-const ASSEMBLY_FIELDS: usize = 8;
 
 /// Computes fields of one layout and keeps the latest.
 ///
@@ -18,7 +14,7 @@ const ASSEMBLY_FIELDS: usize = 8;
 #[derive(Clone, Debug)]
 pub struct Navigator {
     map: Arc<Map>,
-    costs: NavigationCosts,
+    parameters: NavigationParameters,
     fields: Cache<Field>,
     assembly_fields: Cache<AssemblyField>,
 }
@@ -26,12 +22,12 @@ pub struct Navigator {
 impl Navigator {
     /// A navigator with an empty cache.
     #[must_use]
-    pub fn new(layout: Layout, costs: NavigationCosts) -> Self {
+    pub fn new(layout: Layout, parameters: NavigationParameters) -> Self {
         Self {
             map: Arc::new(Map::new(layout)),
-            costs,
-            fields: Cache::new(FIELDS),
-            assembly_fields: Cache::new(ASSEMBLY_FIELDS),
+            parameters,
+            fields: Cache::new(FIELDS_KEPT),
+            assembly_fields: Cache::new(ASSEMBLY_FIELDS_KEPT),
         }
     }
 
@@ -41,18 +37,13 @@ impl Navigator {
         &self.map
     }
 
-    /// The costs of all fields.
-    #[must_use]
-    pub const fn costs(&self) -> NavigationCosts {
-        self.costs
-    }
-
     /// The field of a target for a mover among obstacles.
     pub fn field(&mut self, target: Target, mover: Mover, obstacles: &[Disc]) -> Arc<Field> {
         let bodies = obstacles.iter().flat_map(|disc| [disc.centre.x, disc.centre.y, disc.radius]);
         let own = core::iter::once(mover.half_width).chain(bodies).map(f32::to_bits);
-        let (map, costs) = (&self.map, self.costs);
-        self.fields.get(key(target, own), || Field::new(map, target, mover, obstacles, costs))
+        let map = &self.map;
+        let parameters = self.parameters;
+        self.fields.get(key(target, own), || Field::new(map, target, mover, obstacles, parameters))
     }
 
     /// The field of a target for an assembly; see [`AssemblyField::new`].
@@ -61,12 +52,12 @@ impl Navigator {
         target: Target,
         reach: f32,
         assembly: &Assembly,
-        costs: AssemblyCosts,
+        parameters: AssemblyParameters,
     ) -> Arc<AssemblyField> {
-        let numbers = [reach, costs.turning, costs.collision].map(f32::to_bits);
-        let key = key(target, numbers.into_iter().chain(assembly.bits()));
+        let numbers = core::iter::once(reach.to_bits()).chain(parameters.bits());
+        let key = key(target, numbers.chain(assembly.bits()));
         let map = &self.map;
-        self.assembly_fields.get(key, || AssemblyField::new(map, target, reach, assembly, costs))
+        self.assembly_fields.get(key, || AssemblyField::new(map, target, reach, assembly, parameters))
     }
 }
 

@@ -5,17 +5,19 @@
 //! crossings. A route takes less than a microsecond where a [`Field`](crate::Field) takes tens, and knows nothing
 //! of corners and obstacles.
 
-use crate::{CLEARANCE, Gaps, Map, gaps::point_in, ways::Crossing};
+use crate::{
+    Gaps, Map,
+    accuracy::{CROSSING_PASSES, PARALLEL},
+    gaps::point_in,
+    ways::Crossing,
+};
 use phase_model::{
     SlotId, Vec2, arena,
-    layout::{SLOT_DIRECTIONS, room_of},
+    layout::{DOOR_CLEARANCE, SLOT_DIRECTIONS, room_of},
 };
 
 /// Longest sequence of doors that visits no room twice.
 const MAX_DOORS: usize = 3;
-/// Passes of coordinate descent over the crossing points of a route through several doors. With three the length
-/// is within a few hundredths of the shortest one.
-const PASSES: usize = 3;
 
 /// A route from one point to another.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -120,7 +122,7 @@ impl Map {
             if gaps.width(slot) < width {
                 impassable += 1;
             }
-            let margin = (0.5 * width + CLEARANCE).min(0.5 * (gap.1 - gap.0));
+            let margin = (0.5 * width + DOOR_CLEARANCE).min(0.5 * (gap.1 - gap.0));
             ranges[k] = (gap.0 + margin, gap.1 - margin);
             doors[k].0 = slot;
         }
@@ -146,7 +148,7 @@ fn place_crossings(doors: &mut [(SlotId, Vec2)], ranges: &[(f32, f32)], from: Ve
             door.1 = point_in(door.0, 0.5 * (range.0 + range.1));
         }
     }
-    let passes = if count > 1 { PASSES } else { 1 };
+    let passes = if count > 1 { CROSSING_PASSES } else { 1 };
     for _ in 0..passes {
         for k in 0..count {
             let before = if k == 0 { from } else { doors[k - 1].1 };
@@ -169,7 +171,7 @@ fn crossing(slot: SlotId, a: Vec2, b: Vec2) -> f32 {
     let along_b = direction.dot(b);
     let across_a = direction.perp_dot(a);
     let span = across_a - direction.perp_dot(b);
-    if span.abs() < 1e-6 {
+    if span.abs() < PARALLEL {
         return 0.5 * (along_a + along_b);
     }
     along_a + (along_b - along_a) * (across_a / span).clamp(0.0, 1.0)

@@ -1,15 +1,13 @@
 //! What a straight leg costs: its length, and more where it cuts a corner or crosses an obstacle.
 
-use crate::{Disc, Map, Mover, NavigationCosts, gaps::point_in, map::Passage};
+use crate::{
+    Disc, Map, Mover, NavigationParameters, accuracy::PASSAGE_TOLERANCE, gaps::point_in, map::Passage,
+};
 use phase_model::{
     RoomId, SlotId, Vec2, arena,
     layout::{SLOT_DIRECTIONS, SLOT_ROOMS},
 };
 
-/// Tolerance of the ends of a passage (u); more than the rounding of a crossing point.
-const TOLERANCE: f32 = 1e-3;
-/// Extra cost of a unit of length within the margin of a corner (dimensionless): more than the way around.
-const CORNER_COST: f32 = 3.0;
 /// Radius of a margin relative to the circle through the eight points around its corner: cos 22.5°, so that
 /// the straight legs between the points do not enter the margin.
 const MARGIN_RATIO: f32 = 0.923_879_5;
@@ -22,6 +20,7 @@ pub(crate) struct Terrain {
     /// Obstacles, grown by the mover's half width.
     pub(crate) obstacles: Vec<Disc>,
     obstruction: f32,
+    corner_price: f32,
 }
 
 /// The end of a wall around which paths bend.
@@ -37,7 +36,7 @@ pub(crate) struct Corner {
 }
 
 impl Terrain {
-    pub(crate) fn new(map: &Map, mover: Mover, obstacles: &[Disc], costs: NavigationCosts) -> Self {
+    pub(crate) fn new(map: &Map, mover: Mover, obstacles: &[Disc], parameters: NavigationParameters) -> Self {
         let passages = SlotId::ALL.map(|slot| map.passage(slot, mover));
         let mut corners: Vec<Corner> = Vec::with_capacity(passages.len());
         for slot in SlotId::ALL {
@@ -58,7 +57,13 @@ impl Terrain {
         }
         let grow = |disc: &Disc| Disc { radius: disc.radius + mover.half_width, ..*disc };
         let obstacles = obstacles.iter().map(grow).collect();
-        Self { passages, corners, obstacles, obstruction: costs.obstruction }
+        Self {
+            passages,
+            corners,
+            obstacles,
+            obstruction: parameters.obstruction,
+            corner_price: parameters.corner,
+        }
     }
 
     /// Cost of a path's only leg (u): inside one room corners do not matter.
@@ -104,7 +109,7 @@ impl Terrain {
         };
         let in_margins: f32 =
             self.corners.iter().filter(|corner| corner.rooms & rooms != 0).map(margin).sum();
-        Some(a.distance(b) + CORNER_COST * in_margins + self.obstruction_on(a, b))
+        Some(a.distance(b) + self.corner_price * in_margins + self.obstruction_on(a, b))
     }
 
     /// What the obstacles add to the length of a leg (u).
@@ -114,7 +119,7 @@ impl Terrain {
 
     fn is_open(&self, slot: SlotId, s: f32, t: f32) -> bool {
         let Passage::Open(from, to) = self.passages[slot] else { return false };
-        s.min(t) >= from - TOLERANCE && s.max(t) <= to + TOLERANCE
+        s.min(t) >= from - PASSAGE_TOLERANCE && s.max(t) <= to + PASSAGE_TOLERANCE
     }
 }
 

@@ -2,19 +2,16 @@
 
 use crate::{
     Disc, Map, Mover,
+    accuracy::{RING, RING_GAP},
     gaps::point_in,
     map::Passage,
     terrain::{Corner, Terrain},
 };
 use phase_model::{SlotId, Vec2, arena, layout::SLOT_DIRECTIONS};
 
-/// Number of points around an obstacle.
-const RING: usize = 16;
 /// 1 / cos(180° / [`RING`]): the straight legs between the points of a ring this much larger than the obstacle
 /// do not cross it.
 const RING_RATIO: f32 = 1.019_591_1;
-/// Distance of a ring from its obstacle (u), more than rounding.
-const RING_GAP: f32 = 0.01;
 /// cos and sin of 22.5°, the angle between neighbouring points of a ring.
 const RING_TURN: Vec2 = Vec2::new(0.923_879_5, 0.382_683_43);
 /// Sine and cosine of 45°.

@@ -2,11 +2,11 @@
 
 use core::f32::consts::{FRAC_PI_2, PI};
 use phase_model::{Grip, Layout, ObjectId, PhysicsConfig, RoomId, Side, Vec2, arena, physics::AgentBody};
-use phase_navigation::{Assembly, AssemblyCosts, AssemblyField, Descent, Map, Navigator, Target};
-use phase_navigation::{NavigationCosts, ROOM_DEPTH};
+use phase_navigation::NavigationParameters;
+use phase_navigation::{Assembly, AssemblyField, AssemblyParameters, Descent, Map, Navigator, Target};
 use proptest::prelude::*;
 
-const COSTS: AssemblyCosts = AssemblyCosts { turning: 1.0, collision: 20.0 };
+const COSTS: AssemblyParameters = AssemblyParameters { collision: 20.0, ..AssemblyParameters::DEFAULT };
 /// Distance at which an object is on a landmark (u).
 const REACH: f32 = 1.414;
 
@@ -117,7 +117,7 @@ fn both_holders_count() {
 #[test]
 fn a_load_inside_its_room_has_arrived() {
     let map = Map::new(Layout::new(16, None).expect("layout 16"));
-    let target = Target::Room { room: RoomId::TOP_RIGHT, depth: ROOM_DEPTH };
+    let target = Target::Room { room: RoomId::TOP_RIGHT, depth: 1.5 };
     let field = AssemblyField::new(&map, target, REACH, &held(0.8, 0.8, Side::Head), COSTS);
     assert!(field.distance(Vec2::new(22.0, 17.0), 0.0) < 1e-3);
     assert!(field.distance(Vec2::new(10.0, 7.0), 0.0) > 10.0);
@@ -126,7 +126,10 @@ fn a_load_inside_its_room_has_arrived() {
 #[test]
 fn the_cache_does_not_change_answers() {
     let layout = Layout::new(4, None).expect("layout 4");
-    let mut navigator = Navigator::new(layout, NavigationCosts { impassable: 10.0, obstruction: 4.0 });
+    let mut navigator = Navigator::new(
+        layout,
+        NavigationParameters { impassable: 10.0, obstruction: 4.0, ..NavigationParameters::DEFAULT },
+    );
     let from = Vec2::new(8.75, 16.0);
     for round in 0..2 {
         for (side, landmark) in Side::ALL.into_iter().flat_map(|side| arena::LANDMARKS.map(|to| (side, to))) {

@@ -4,7 +4,7 @@ use phase_model::{
     Layout, Size, Vec2, arena,
     random::{Purpose, stream},
 };
-use phase_navigation::{Field, IMPASSABLE_COST, Map, Mover, NavigationCosts, Target};
+use phase_navigation::{Field, IMPASSABLE_COST, Map, Mover, NavigationParameters, Target};
 use rand::RngExt;
 
 /// Number of random pairs of points.
@@ -13,7 +13,11 @@ const PAIRS: usize = 2000;
 #[test]
 fn routes_and_fields_agree_on_what_is_closed_and_nearly_always_on_the_distance() {
     let mut random = stream(5, Purpose::Scene, 0);
-    let costs = NavigationCosts { impassable: IMPASSABLE_COST, obstruction: 0.0 };
+    let costs = NavigationParameters {
+        impassable: IMPASSABLE_COST,
+        obstruction: 0.0,
+        ..NavigationParameters::DEFAULT
+    };
     let mut differences = Vec::with_capacity(PAIRS);
     for _ in 0..PAIRS {
         let layout = Layout::new(random.random_range(0..22), None).unwrap();

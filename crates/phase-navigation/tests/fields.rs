@@ -4,10 +4,11 @@ mod oracle;
 
 use oracle::Oracle;
 use phase_model::{Flip, Layout, RoomId, Vec2, arena, layout::room_of};
-use phase_navigation::{Disc, Field, Map, Mover, NavigationCosts, Navigator, ROOM_DEPTH, Target};
+use phase_navigation::{Disc, Field, Map, Mover, NavigationParameters, Navigator, Target};
 use proptest::prelude::*;
 
-const COSTS: NavigationCosts = NavigationCosts { impassable: 10.0, obstruction: 4.0 };
+const COSTS: NavigationParameters =
+    NavigationParameters { impassable: 10.0, obstruction: 4.0, ..NavigationParameters::DEFAULT };
 
 fn field(layout: Layout, target: Vec2, half_width: f32, obstacles: &[Disc]) -> Field {
     Field::new(&Map::new(layout), Target::Point(target), Mover { half_width }, obstacles, COSTS)
@@ -100,20 +101,20 @@ proptest! {
         prop_assume!(!Oracle::new(layout, half_width, COSTS.impassable).is_in_margin(from));
         let room = RoomId::ALL[room];
         let map = Map::new(layout);
-        let target = Target::Room { room, depth: ROOM_DEPTH };
+        let target = Target::Room { room, depth: 1.5 };
         let distance = Field::new(&map, target, Mover { half_width }, &[], COSTS).distance(from);
         let mut nearest = f32::INFINITY;
         for (x, y) in (-1..=41).flat_map(|x| (-1..=41).map(move |y| (x, y))) {
             let to = arena::MIN + 0.5 * Vec2::new(x as f32, y as f32);
             let offset = (to - arena::CENTRE).abs();
             // Only the border of the target area can be nearest.
-            let is_on_border = offset.min_element() == ROOM_DEPTH;
+            let is_on_border = offset.min_element() == 1.5;
             if room_of(to) == room && is_on_border {
                 nearest = nearest.min(field(layout, to, half_width, &[]).distance(from));
             }
         }
         let offset = (from - arena::CENTRE).abs();
-        if room_of(from) == room && offset.min_element() >= ROOM_DEPTH {
+        if room_of(from) == room && offset.min_element() >= 1.5 {
             prop_assert_eq!(distance, 0.0);
         } else {
             let tolerance = (0.03 * nearest).max(0.3);
@@ -127,7 +128,7 @@ proptest! {
         let centre = Vec2::new(16.0, 12.0);
         let grown = radius + 1.0;
         prop_assume!(from.distance(centre) > grown && to.distance(centre) > grown);
-        let costs = NavigationCosts { obstruction: 100.0, ..COSTS };
+        let costs = NavigationParameters { obstruction: 100.0, ..COSTS };
         let disc = Disc { centre, radius };
         let map = Map::new(layout(0));
         let field = Field::new(&map, Target::Point(to), Mover { half_width: 1.0 }, &[disc], costs);

@@ -3,7 +3,7 @@
 //! A hinderer, an agent that flees, and an agent that keeps something off a landmark have the same task: a
 //! condition that the other can make true is to become expensive for it. Every predicate that the agent can
 //! make true or false is a candidate. Its worth is the cost of the other's best plan (A*) afterwards, less the
-//! cost now, less the agent's own effort times [`PlannerCosts::effort`](crate::PlannerCosts::effort). Helping
+//! cost now, less the agent's own effort times [`PlannerParameters::effort`](crate::PlannerParameters::effort). Helping
 //! has the opposite sign; there the joint A* of [`Planner`](crate::Planner) finds the best sequence.
 
 use crate::{
@@ -25,7 +25,7 @@ use phase_predicates::{achieved, is_true};
 #[must_use]
 pub fn plan(problem: &PlanningProblem<'_>, agent: AgentId, condition: Goal) -> Plan {
     let interference = Interference::new(problem, agent, condition);
-    let is_safe = interference.now >= problem.costs.impassable;
+    let is_safe = interference.now >= problem.parameters.impassable;
     if is_safe && !interference.is_pursuit() {
         return interference.finish();
     }
@@ -129,7 +129,7 @@ impl<'a> Interference<'a> {
 
     fn capped(&self, plan: Option<&SymbolicPlan>, node: &Node) -> f32 {
         let cost = plan.map_or_else(|| self.pushing(node), |plan| plan.cost);
-        cost.min(self.problem.costs.impassable)
+        cost.min(self.problem.parameters.impassable)
     }
 
     /// Without a plan the condition is about this agent, which the other can only push there.
@@ -156,7 +156,7 @@ impl<'a> Interference<'a> {
     }
 
     fn candidate(&self, effect: f32, effort: f32, subgoals: Vec<phase_model::Subgoal>) -> Candidate {
-        let worth = effect - self.problem.costs.effort * effort;
+        let worth = effect - self.problem.parameters.effort * effort;
         Candidate { worth, plan: Plan { subgoals, distance: effort } }
     }
 
@@ -220,8 +220,8 @@ impl<'a> Interference<'a> {
         let mut fetch = 0.0;
         let mut fetching = Vec::new();
         if !is_holding {
-            fetch =
-                task.distance(&self.start, self.agent, None, location, Some(object)) + problem.costs.grasp;
+            fetch = task.distance(&self.start, self.agent, None, location, Some(object))
+                + problem.parameters.grasp;
             fetching = self.go(problem.position(location));
             let target = PredicateTarget::Entity(Entity::Object(object));
             fetching.push(is(Predicate::Close(Entity::Agent(self.agent), target)));

@@ -40,8 +40,9 @@
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 
-pub mod costs;
+mod accuracy;
 pub mod interference;
+pub mod parameters;
 pub mod plan;
 pub mod planner;
 pub mod problem;
@@ -52,7 +53,7 @@ mod to_subgoals;
 pub mod value;
 mod yielding;
 
-pub use costs::PlannerCosts;
+pub use parameters::PlannerParameters;
 pub use plan::Plan;
 pub use planner::Planner;
 pub use problem::{Location, PlanningProblem};

@@ -1,6 +1,9 @@
 //! An agent's plan, and the building blocks of plans of all kinds.
 
-use crate::problem::{Location, PlanningProblem};
+use crate::{
+    accuracy::STRAIGHT,
+    problem::{Location, PlanningProblem},
+};
 use phase_model::{
     AGENT_COUNT, AgentId, Entity, Literal, Predicate, PredicateTarget, Subgoal, layout::room_of,
 };
@@ -83,7 +86,6 @@ pub(crate) fn rooms(
     mover: Entity,
     subgoals: &mut Vec<Subgoal>,
 ) {
-    const STRAIGHT: f32 = 1.01;
     if route.length <= from.distance(to) * STRAIGHT {
         return;
     }

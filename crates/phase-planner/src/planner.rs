@@ -1,8 +1,8 @@
 //! One agent's planner: which kind of plan its goal and attitude require.
 
 use crate::{
-    costs::PlannerCosts,
     interference,
+    parameters::PlannerParameters,
     plan::{Plan, inspect, is, not, only, release, rooms},
     problem::{Location, PlanningProblem},
     search,
@@ -25,12 +25,12 @@ pub struct Planner {
     agent: AgentId,
     goals: [Goal; AGENT_COUNT],
     attitude: Attitude,
-    costs: PlannerCosts,
+    parameters: PlannerParameters,
 }
 
 impl Planner {
     /// A planner for one agent with both agents' goals, which are common knowledge, and its own attitude
-    /// towards the other; with the default costs.
+    /// towards the other; with the default parameters.
     #[must_use]
     pub fn new(
         physics: PhysicsConfig,
@@ -39,27 +39,27 @@ impl Planner {
         goals: [Goal; AGENT_COUNT],
         attitude: Attitude,
     ) -> Self {
-        Self::with_costs(physics, layout, agent, goals, attitude, PlannerCosts::default())
+        Self::with_parameters(physics, layout, agent, goals, attitude, PlannerParameters::default())
     }
 
-    /// The same with other costs.
+    /// A planner with other parameters.
     #[must_use]
-    pub fn with_costs(
+    pub fn with_parameters(
         physics: PhysicsConfig,
         layout: Layout,
         agent: AgentId,
         goals: [Goal; AGENT_COUNT],
         attitude: Attitude,
-        costs: PlannerCosts,
+        parameters: PlannerParameters,
     ) -> Self {
-        Self { physics, map: Map::new(layout), agent, goals, attitude, costs }
+        Self { physics, map: Map::new(layout), agent, goals, attitude, parameters }
     }
 
     /// HP(gᵢ, gⱼ, αᵢⱼ, b) of Algorithm 1: the agent's best plan if the world is in this state, of which it
     /// observes these entities.
     #[must_use]
     pub fn plan(&self, state: &State, observed: BodySet) -> Plan {
-        let problem = PlanningProblem::new(&self.physics, &self.map, state, self.costs);
+        let problem = PlanningProblem::new(&self.physics, &self.map, state, self.parameters);
         let own = self.goals[self.agent];
         let other = self.goals[self.agent.other()];
         // A goal is to become true or not to become true, by its sign and, for the other's goal, the attitude.
@@ -107,7 +107,7 @@ impl Planner {
         };
         let alone = search::solve(&task, Node::start(problem));
         match alone {
-            Some(plan) if own != other || plan.cost < self.costs.impassable => {
+            Some(plan) if own != other || plan.cost < self.parameters.impassable => {
                 to_subgoals(&task, &plan, self.agent)
             }
             _ if own == other => self.cooperate(problem, own, self.agent, observed),
@@ -125,7 +125,7 @@ impl Planner {
         observed: BodySet,
     ) -> Plan {
         let mut efforts = [Effort::OWN; AGENT_COUNT];
-        efforts[owner.other()] = Effort::helper(self.costs.effort);
+        efforts[owner.other()] = Effort::helper(self.parameters.effort);
         let actors = [true; AGENT_COUNT];
         let task = PlanningTask { problem, goal, actors, efforts, cooperative: true, narrowed: None };
         let plan = search::solve(&task, Node::start(problem))

@@ -1,7 +1,7 @@
 //! A physical state as represented in the high-level planner: a few named locations and what lies between
 //! them.
 
-use crate::costs::PlannerCosts;
+use crate::parameters::PlannerParameters;
 use phase_model::{
     AGENT_COUNT, AgentId, BodySet, Entity, LandmarkId, MAX_OBJECTS, ObjectId, PhysicsConfig, RoomId, SlotId,
     State, Vec2, arena, layout::SLOT_DIRECTIONS, physics::GROUND_FRICTION,
@@ -24,9 +24,6 @@ pub enum Location {
     },
 }
 
-/// Distance inside a room at which things lie that were passed through its door (u).
-const INSIDE: f32 = 1.2;
-
 /// Everything a plan from one physical state needs to know.
 #[derive(Clone, Copy, Debug)]
 pub struct PlanningProblem<'a> {
@@ -36,8 +33,8 @@ pub struct PlanningProblem<'a> {
     pub map: &'a Map,
     /// The physical state.
     pub state: &'a State,
-    /// The costs of what agents do.
-    pub costs: PlannerCosts,
+    /// The numbers that shape plans.
+    pub parameters: PlannerParameters,
     /// The passable part of each door for each agent while a set of objects, the bits of the index, are still
     /// where they are now.
     gaps: [[Gaps; 1 << MAX_OBJECTS]; AGENT_COUNT],
@@ -48,7 +45,12 @@ pub struct PlanningProblem<'a> {
 impl<'a> PlanningProblem<'a> {
     /// Computes which doors the objects obstruct.
     #[must_use]
-    pub fn new(physics: &'a PhysicsConfig, map: &'a Map, state: &'a State, costs: PlannerCosts) -> Self {
+    pub fn new(
+        physics: &'a PhysicsConfig,
+        map: &'a Map,
+        state: &'a State,
+        parameters: PlannerParameters,
+    ) -> Self {
         let gaps = AgentId::ALL.map(|agent| {
             core::array::from_fn(|mask| {
                 let mut gaps = *map.gaps();
@@ -63,7 +65,7 @@ impl<'a> PlanningProblem<'a> {
                 gaps
             })
         });
-        let mut problem = Self { physics, map, state, costs, gaps, blockers: [false; MAX_OBJECTS] };
+        let mut problem = Self { physics, map, state, parameters, gaps, blockers: [false; MAX_OBJECTS] };
         for object in physics.objects() {
             problem.blockers[object] =
                 AgentId::ALL.into_iter().any(|agent| problem.narrows_a_door(object, agent));
@@ -88,22 +90,22 @@ impl<'a> PlanningProblem<'a> {
                 let middle = self.map.gaps().middle(slot).unwrap_or(arena::CENTRE);
                 let across = SLOT_DIRECTIONS[slot].perp();
                 let inwards = across.dot(arena::LANDMARKS[room.landmark()] - middle).signum();
-                middle + across * inwards * INSIDE
+                middle + across * inwards * self.parameters.passing_depth
             }
         }
     }
 
     /// The cheapest route for a body of some width (u) through doors with these gaps, at the price
-    /// [`PlannerCosts::impassable`] of a door that is too narrow; `None` if walls separate the two points.
+    /// [`PlannerParameters::impassable`] of a door that is too narrow; `None` if walls separate the two points.
     #[must_use]
     pub fn route(&self, from: Vec2, to: Vec2, width: f32, gaps: &Gaps) -> Option<Route> {
-        self.map.route(from, to, width, gaps, self.costs.impassable)
+        self.map.route(from, to, width, gaps, self.parameters.impassable)
     }
 
     /// Cost of that route (u), finite even where there is none; see [`Map::route_cost`].
     #[must_use]
     pub fn route_cost(&self, from: Vec2, to: Vec2, width: f32, gaps: &Gaps) -> f32 {
-        self.map.route_cost(from, to, width, gaps, self.costs.impassable)
+        self.map.route_cost(from, to, width, gaps, self.parameters.impassable)
     }
 
     /// The doors as they are for an agent while the objects in `unmoved` are still where they are now. Agents

@@ -1,12 +1,10 @@
 //! A* over symbolic states.
 
 use crate::{
+    accuracy::{COST_RESOLUTION, HIGHEST_COST},
     symbolic::{Node, Operator},
     task::PlanningTask,
 };
-
-/// A* needs a totally ordered cost; this many units make one world unit.
-const COST_RESOLUTION: f32 = 256.0;
 
 /// A symbolic plan: operators with the symbolic states they are applied in, in order, and the total cost.
 #[derive(Clone, Debug)]
@@ -45,5 +43,5 @@ pub fn solve(task: &PlanningTask<'_>, start: Node) -> Option<SymbolicPlan> {
 
 /// A cost in A*'s units, rounded up so that a lower bound remains one. NaN counts as very far.
 fn quantise(cost: f32) -> u32 {
-    libm::ceilf(cost.clamp(0.0, 1e6) * COST_RESOLUTION) as u32
+    libm::ceilf(cost.clamp(0.0, HIGHEST_COST) * COST_RESOLUTION) as u32
 }

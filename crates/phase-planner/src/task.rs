@@ -161,7 +161,7 @@ impl PlanningTask<'_> {
             let mut after = *node;
             if node.agents[agent] == location {
                 after.holds[agent] = Some(object);
-                successors.push((Operator::Grab { agent, object }, after, self.problem.costs.grasp));
+                successors.push((Operator::Grab { agent, object }, after, self.problem.parameters.grasp));
             } else {
                 after.agents[agent] = location;
                 let cost = self.walking_cost(node, agent, location, Some(object));
@@ -196,7 +196,7 @@ impl PlanningTask<'_> {
     ) {
         let mut after = *node;
         after.holds[agent] = None;
-        successors.push((Operator::Release { agent, object }, after, self.problem.costs.grasp));
+        successors.push((Operator::Release { agent, object }, after, self.problem.parameters.grasp));
         for landmark in LandmarkId::ALL {
             let location = Location::Landmark(landmark);
             if node.objects[object] == location || !self.may_place(object, landmark) {
@@ -246,7 +246,7 @@ impl PlanningTask<'_> {
                 let through = self.problem.position(before).distance(self.problem.position(passed));
                 let cost = self.carrying_cost(node, agent, object, before)
                     + self.efforts[agent].carrying * through
-                    + 2.0 * self.problem.costs.grasp;
+                    + 2.0 * self.problem.parameters.grasp;
                 successors.push((
                     Operator::Pass { agent, object, slot, room: neighbour_across },
                     after,
@@ -293,7 +293,7 @@ impl PlanningTask<'_> {
         if net > 0.0 {
             travel * (1.0 + GROUND_FRICTION / net)
         } else {
-            travel + self.problem.costs.impassable
+            travel + self.problem.parameters.impassable
         }
     }
 
@@ -307,7 +307,7 @@ impl PlanningTask<'_> {
     ) -> f32 {
         let cost = self.efforts[agent].walking * self.distance(node, agent, None, to, ignored);
         if self.is_at_blocking_object(node, agent) || self.is_stopped_in_door(node, agent, to, ignored) {
-            cost + self.problem.costs.impassable
+            cost + self.problem.parameters.impassable
         } else {
             cost
         }

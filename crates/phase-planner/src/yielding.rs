@@ -6,9 +6,6 @@ use crate::{
 };
 use phase_model::{AgentId, Entity, Goal, LandmarkId, Predicate, SlotId, Subgoal, arena, layout::room_of};
 
-/// Lateral clearance to the other agent's path (u).
-const CLEARANCE: f32 = 0.4;
-
 /// Subgoal of an agent without a part in the other's plan that obstructs the other: leave a door that the
 /// other would fit through, then the path to the landmark of the other's goal.
 #[must_use]
@@ -48,7 +45,7 @@ fn stands_on_path(problem: &PlanningProblem<'_>, agent: AgentId, landmark: Landm
     let from = problem.state.position(mover);
     let to = arena::LANDMARKS[landmark];
     let width = problem.physics.agents[other].width().max(2.0 * problem.physics.radius(mover));
-    let room = 0.5 * (problem.physics.agents[agent].width() + width) + CLEARANCE;
+    let room = 0.5 * (problem.physics.agents[agent].width() + width) + problem.parameters.yielding_clearance;
     problem.route(from, to, width, problem.map.gaps()).is_some_and(|route| {
         let nearest = route.nearest(from, to, here);
         nearest != from && nearest.distance(here) < room

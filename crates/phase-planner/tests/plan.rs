@@ -3,7 +3,7 @@
 mod support;
 
 use phase_model::{AgentId, Attitude, LandmarkId, Size::*, Strength::*, Subgoal, Vec2};
-use phase_planner::{Planner, PlannerCosts};
+use phase_planner::{Planner, PlannerParameters};
 use support::{Setup, agent_on, approach, everything, layout, object_on};
 
 /// Agent 0 at the top left, agent 1 at the bottom right, no walls, no objects.
@@ -232,9 +232,9 @@ fn a_door_that_is_too_narrow_costs_what_the_parameter_says() {
         ..plain()
     };
     let distance = |impassable: f32| {
-        let costs = PlannerCosts { impassable, ..PlannerCosts::default() };
+        let costs = PlannerParameters { impassable, ..PlannerParameters::default() };
         let me = AgentId::ZERO;
-        Planner::with_costs(setup.physics(), setup.layout, me, setup.goals, Attitude::Neutral, costs)
+        Planner::with_parameters(setup.physics(), setup.layout, me, setup.goals, Attitude::Neutral, costs)
             .plan(&setup.state(), setup.observed)
             .distance
     };

@@ -3,7 +3,7 @@
 use phase_model::{AGENT_COUNT, AgentId, Goal, Scene};
 use phase_navigation::Map;
 use phase_planner::{
-    PlannerCosts, PlanningProblem, search,
+    PlannerParameters, PlanningProblem, search,
     symbolic::Node,
     task::{Effort, PlanningTask},
 };
@@ -17,7 +17,7 @@ pub const INFEASIBLE_COST: f32 = 95.0;
 #[must_use]
 pub fn cost(scene: &Scene, goal: Goal, actors: [bool; AGENT_COUNT]) -> f32 {
     let (physics, map, state) = (scene.physics(), Map::new(scene.layout), scene.initial_state());
-    let problem = PlanningProblem::new(&physics, &map, &state, PlannerCosts::default());
+    let problem = PlanningProblem::new(&physics, &map, &state, PlannerParameters::default());
     let task = PlanningTask {
         problem: &problem,
         goal,

@@ -14,7 +14,7 @@ use phase_model::{
     Action, AgentId, Entity, Literal, ObjectId, Scene, State, Subgoal, Vec2, arena,
     random::{Purpose, stream},
 };
-use phase_navigation::{NavigationCosts, Navigator};
+use phase_navigation::Navigator;
 use phase_perception::observe;
 use phase_planner::{Plan, Planner, value};
 use phase_pomcp::GenerativeModel;
@@ -61,7 +61,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let view = BeliefView { particles, observed: observation.observed, last_action };
     let (action, thought) = Mind::new(&scene, ME, forward.clone(), parameters)?.decide(view, &mut random)?;
 
-    let costs = NavigationCosts { impassable: parameters.impassable, obstruction: parameters.obstruction };
+    let costs = parameters.navigation();
     let mut navigator = Navigator::new(scene.layout, costs);
     let objective = Objective::new(&physics, &mut navigator, &root, ME, best.subgoal, &parameters);
     let others = Subgoal::Achieve(Literal::from(scene.goals()[AgentId::ONE]));

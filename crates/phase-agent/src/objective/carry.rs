@@ -2,7 +2,7 @@
 
 use super::{Compiler, Motion, Objective, way::Way};
 use phase_model::{Entity, ObjectId, State, Vec2, arena, physics};
-use phase_navigation::{Assembly, AssemblyCosts, AssemblyField, Field, Target};
+use phase_navigation::{Assembly, AssemblyField, Field, Target};
 use phase_predicates::threshold::ON_OBJECT;
 use std::sync::Arc;
 
@@ -81,10 +81,7 @@ impl Compiler<'_, '_> {
         let load = self.navigator.field(target, self.mover(entity), &obstacles);
         let assembly = self.state.holds(self.agent, object).then(|| {
             let assembly = Assembly::of(self.physics, &self.state.grips, object);
-            // So that crossing a wall for the length of a room is as bad as a door that is too narrow.
-            let collision = self.navigator.costs().impassable / (0.5 * arena::SIDE);
-            let costs = AssemblyCosts { turning: self.parameters.turning, collision };
-            self.navigator.assembly_field(target, ON_OBJECT, &assembly, costs)
+            self.navigator.assembly_field(target, ON_OBJECT, &assembly, self.parameters.carrying())
         });
         Carry { object, load, assembly }
     }

@@ -209,7 +209,7 @@ impl Compiler<'_, '_> {
         match (predicate, holds) {
             (Predicate::On(entity, landmark), true) => self.bring(entity, pursuit::centre(landmark)),
             (Predicate::Close(entity, PredicateTarget::Landmark(landmark)), true) => {
-                self.bring(entity, pursuit::room(landmark))
+                self.bring(entity, pursuit::room(landmark, self.parameters.room_depth))
             }
             (Predicate::Close(who, PredicateTarget::Entity(entity)), true) if who == me => self.meet(entity),
             (Predicate::Touch(who, entity), true) if Entity::Agent(who) == me => self.meet(entity),
@@ -227,7 +227,7 @@ impl Compiler<'_, '_> {
                 Pursuit::Guard(self.guard(entity, pursuit::centre(landmark)))
             }
             (Predicate::Close(entity, PredicateTarget::Landmark(landmark)), false) => {
-                Pursuit::Guard(self.guard(entity, pursuit::room(landmark)))
+                Pursuit::Guard(self.guard(entity, pursuit::room(landmark, self.parameters.room_depth)))
             }
             // What only the other agent can do.
             _ => Pursuit::Rest,

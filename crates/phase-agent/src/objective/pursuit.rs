@@ -8,7 +8,7 @@ use super::{
 };
 use crate::PhaseParameters;
 use phase_model::{Entity, LandmarkId, ObjectId, Vec2, arena};
-use phase_navigation::{ROOM_DEPTH, Target};
+use phase_navigation::Target;
 
 /// The kinds of distance to go.
 #[derive(Clone, Debug)]
@@ -38,9 +38,9 @@ pub(crate) const fn centre(landmark: LandmarkId) -> Target {
     Target::Point(arena::LANDMARKS[landmark.index()])
 }
 
-/// A landmark's room as a target.
-pub(crate) const fn room(landmark: LandmarkId) -> Target {
-    Target::Room { room: landmark.room(), depth: ROOM_DEPTH }
+/// A landmark's room from some depth (u) on as a target.
+pub(crate) const fn room(landmark: LandmarkId, depth: f32) -> Target {
+    Target::Room { room: landmark.room(), depth }
 }
 
 /// Unit vectors in so many directions, evenly spaced.

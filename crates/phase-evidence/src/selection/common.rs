@@ -1,14 +1,10 @@
 //! Checks shared by several kinds of event.
 
-use super::RejectionReason;
+use super::{FINAL_REST_STEPS, RejectionReason};
 pub(super) use crate::manner::goal_object as object_of;
 use crate::{GoalOutcome, Rest, Track, contact};
 use phase_model::{AgentId, Entity, Goal, ObjectId, Relation, Scene, State};
 
-/// Minimum duration for something to be seen (steps).
-pub(super) const MIN_VISIBLE_STEPS: usize = 3;
-/// Steps at the end over which nothing may move.
-const FINAL_REST_STEPS: usize = 4;
 /// A goal reached before this step was hardly pursued visibly (2 s of video).
 const MIN_STEPS_TO_GOAL: usize = 8;
 /// How much closer to its first target an agent must come for its goal to be visible (u).

@@ -1,8 +1,8 @@
 //! What each kind of event requires where events end once they are settled.
 
 use super::{
-    CausalEffect, Counterfactual, RejectionReason,
-    common::{MIN_VISIBLE_STEPS, object_of, pursued, reached, require, touches},
+    CausalEffect, Counterfactual, MIN_VISIBLE_STEPS, RejectionReason,
+    common::{object_of, pursued, reached, require, touches},
 };
 use crate::{GoalOutcome, Track, blocking, contact, holding, manner, pursuit::Pursuit};
 use phase_model::{AgentId, Entity, EventKind, Goal, ObjectId, Scene, Sign};

@@ -14,6 +14,12 @@ use core::ops::RangeInclusive;
 use phase_model::{AgentId, Attitude, Entity, EventKind, Goal, Scene, Sign};
 use serde::{Deserialize, Serialize};
 
+/// Minimum duration for something to be seen (steps): three quarters of a second of video.
+pub const MIN_VISIBLE_STEPS: usize = 3;
+/// Steps at the end of an event over which nothing may move, where everything has to come to rest: a second of
+/// video.
+pub const FINAL_REST_STEPS: usize = 4;
+
 /// Why an event does not show its label.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]

@@ -4,7 +4,7 @@ use crate::problems::problems;
 use phase_model::{AgentId, Attitude, BodySet, Entity, Goal, Subgoal};
 use phase_navigation::Map;
 use phase_planner::{
-    Planner, PlannerCosts, PlanningProblem, search,
+    Planner, PlannerParameters, PlanningProblem, search,
     symbolic::Node,
     task::{Effort, PlanningTask},
 };
@@ -23,7 +23,7 @@ fn a_hinderer_never_stays_while_the_other_has_a_way() {
     let mut runner = TestRunner::deterministic();
     let strategy = problems();
     let observed: BodySet = Entity::ALL.into_iter().collect();
-    let costs = PlannerCosts::default();
+    let costs = PlannerParameters::default();
     let mut count = 0;
     while count < SITUATIONS {
         let situation = strategy.new_tree(&mut runner).expect("a problem").current();

@@ -9,7 +9,7 @@ use petgraph::{
     visit::{EdgeRef, Reversed},
 };
 use phase_navigation::Map;
-use phase_planner::{PlannerCosts, PlanningProblem, search::solve, symbolic::Node, task::PlanningTask};
+use phase_planner::{PlannerParameters, PlanningProblem, search::solve, symbolic::Node, task::PlanningTask};
 use proptest::{
     strategy::{Strategy, ValueTree},
     test_runner::TestRunner,
@@ -69,7 +69,7 @@ fn no_plan_is_cheaper_and_the_heuristic_is_a_lower_bound() {
         let random_problem = strategy.new_tree(&mut runner).expect("a problem").current();
         let (map, physics, state) =
             (Map::new(random_problem.layout), random_problem.physics(), random_problem.state());
-        let problem = PlanningProblem::new(&physics, &map, &state, PlannerCosts::default());
+        let problem = PlanningProblem::new(&physics, &map, &state, PlannerParameters::default());
         let task = random_problem.task(&problem);
         let start = Node::start(&problem);
         let reachable = Reachable::new(&task, start);

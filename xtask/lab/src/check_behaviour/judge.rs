@@ -2,17 +2,15 @@
 
 use super::rows::{BehaviourTest, Criterion, Form};
 use phase_evidence::{
-    Effect, GoalOutcome, Rest, Track, blocking, contact, exploration, holding, outcome, pursuit::Pursuit,
+    Effect, GoalOutcome, Rest, Track, blocking, contact, exploration, holding, outcome,
+    pursuit::Pursuit,
+    selection::{FINAL_REST_STEPS, MIN_VISIBLE_STEPS},
 };
 use phase_model::{AgentId, Entity, Goal, ObjectId, Scene, State, layout::room_of};
 use phase_navigation::{IMPASSABLE_COST, Map};
 
 /// Maximum number of steps for an agent to release its object and come to rest after its goal is reached.
 const SETTLING_STEPS: usize = 8;
-/// Steps at the end over which nothing may move after fetching.
-const FINAL_REST_STEPS: usize = 4;
-/// Minimum duration for something to be seen (steps).
-const MIN_VISIBLE_STEPS: usize = 3;
 
 /// The judgement of one event.
 #[derive(Clone, PartialEq, Debug)]

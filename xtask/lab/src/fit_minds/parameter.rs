@@ -42,7 +42,7 @@ const RATIO_LIMIT: f64 = 1000.0;
 const DIGITS: i32 = 3;
 
 /// All fitted parameters, in the order in which they are changed.
-pub(super) const PARAMETERS: [Parameter; 25] = [
+pub(super) const PARAMETERS: [Parameter; 33] = [
     Parameter {
         name: "heuristic_prior",
         neutral: 1.0,
@@ -217,6 +217,62 @@ pub(super) const PARAMETERS: [Parameter; 25] = [
         domain: Domain::Share,
         get: |it| it.effort.into(),
         set: |it, value| it.effort = value as f32,
+    },
+    Parameter {
+        name: "yielding_clearance",
+        neutral: 0.0,
+        domain: Domain::Amount { unit: 0.25, limit: 30.0 },
+        get: |it| it.yielding_clearance.into(),
+        set: |it, value| it.yielding_clearance = value as f32,
+    },
+    Parameter {
+        name: "passing_depth",
+        neutral: 0.0,
+        domain: Domain::Amount { unit: 0.5, limit: 10.0 },
+        get: |it| it.passing_depth.into(),
+        set: |it, value| it.passing_depth = value as f32,
+    },
+    Parameter {
+        name: "room_depth",
+        neutral: 0.1,
+        domain: Domain::Between { low: 0.1, high: 10.0 },
+        get: |it| it.room_depth.into(),
+        set: |it, value| it.room_depth = value as f32,
+    },
+    Parameter {
+        name: "corner",
+        neutral: 0.0,
+        domain: Domain::Amount { unit: 0.5, limit: 100.0 },
+        get: |it| it.corner.into(),
+        set: |it, value| it.corner = value as f32,
+    },
+    Parameter {
+        name: "bend_distance",
+        neutral: 0.01,
+        domain: Domain::Between { low: 0.01, high: 10.0 },
+        get: |it| it.bend_distance.into(),
+        set: |it, value| it.bend_distance = value as f32,
+    },
+    Parameter {
+        name: "wall_overlap",
+        neutral: 0.0,
+        domain: Domain::Amount { unit: 0.1, limit: 10.0 },
+        get: |it| it.wall_overlap.into(),
+        set: |it, value| it.wall_overlap = value as f32,
+    },
+    Parameter {
+        name: "edge_rise",
+        neutral: 0.0,
+        domain: Domain::Amount { unit: 0.5, limit: 100.0 },
+        get: |it| it.edge_rise.into(),
+        set: |it, value| it.edge_rise = value as f32,
+    },
+    Parameter {
+        name: "descent_length",
+        neutral: 0.0,
+        domain: Domain::Amount { unit: 0.25, limit: 30.0 },
+        get: |it| it.descent_length.into(),
+        set: |it, value| it.descent_length = value as f32,
     },
 ];
 
