@@ -1,4 +1,4 @@
-//! Which agent obstructed the other.
+//! Agents that obstruct each other.
 
 use crate::Track;
 use phase_model::{AgentId, Entity, Goal, SlotId, State, Vec2, arena};
@@ -60,7 +60,8 @@ pub fn door_of(track: &Track, map: &Map, state: &State, agent: AgentId) -> Optio
         .find(|&slot| map.layout().opening(slot).is_some_and(|opening| opening.distance(position) < radius))
 }
 
-/// The next target of an agent with a goal: the object while it is not held, else the goal's landmark or agent.
+/// The next target of an agent with a goal: the object while it is not held, else the goal's landmark or
+/// agent.
 #[must_use]
 pub fn next_place(goal: Goal, state: &State) -> Option<Vec2> {
     match goal {

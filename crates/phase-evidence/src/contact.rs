@@ -1,10 +1,10 @@
-//! Which entities touched, and how close they came.
+//! Contacts between entities, and the distances between them.
 
 use crate::Track;
 use phase_model::{Entity, PhysicsConfig, Segment, State, Vec2, geometry::Outline};
 
-/// Two entities touch when their outlines are no farther apart than this (u). A state of a track is a mean over
-/// five substeps, in which bodies that bounce off each other are already apart again.
+/// Two entities touch when their outlines are no farther apart than this (u). A state of a track is a mean
+/// over five substeps, in which bodies that bounce off each other are already apart again.
 pub const TOUCH_GAP: f32 = 0.1;
 
 /// Distance between the outlines of two entities, 0 if they overlap (u).

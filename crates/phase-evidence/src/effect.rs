@@ -1,4 +1,4 @@
-//! What an agent changed: an event compared with the same event in which that agent did nothing.
+//! The effect of an agent: an event compared with the same event in which that agent did nothing.
 
 use crate::GoalOutcome;
 use serde::{Deserialize, Serialize};

@@ -1,4 +1,4 @@
-//! Which region an agent explored first.
+//! The region that an agent explored first.
 
 use crate::Track;
 use phase_model::layout::room_of;

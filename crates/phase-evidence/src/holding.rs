@@ -1,4 +1,4 @@
-//! Who held which object when, and carrying together.
+//! Holding objects, alone and together, and carrying them.
 
 use crate::Track;
 use phase_model::{AGENT_COUNT, AgentId, Entity, ObjectId};
@@ -18,7 +18,7 @@ pub struct HoldInterval {
 }
 
 impl HoldInterval {
-    /// How many steps it lasted.
+    /// Its duration (steps).
     #[must_use]
     pub const fn steps(&self) -> usize {
         self.to + 1 - self.from
@@ -67,7 +67,7 @@ pub struct CarryStatistics {
     pub steps: usize,
     /// Distance the object travelled in them (u).
     pub distance: f32,
-    /// How much closer to each landmark it came in them (u); negative where it moved away.
+    /// Approach to each landmark in them (u); negative where it moved away.
     pub approach: [f32; 4],
 }
 

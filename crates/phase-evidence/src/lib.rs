@@ -1,12 +1,13 @@
-//! What an event shows, judged from its trajectory.
+//! Evidence in an event, judged from its trajectory.
 //!
 //! A [`Track`] is one state for each step. From it [`GoalOutcome`] tells whether and when a goal was reached,
 //! [`mod@holding`] which agent held what and when, [`mod@contact`] which entities touched, [`mod@blocking`]
 //! which agent obstructed the other, [`mod@pursuit`] which agent pursued the other, [`mod@exploration`] which
 //! region an agent explored first, [`mod@motion`] how fast and how far an agent moved and [`mod@rest`] how
-//! quietly an event ended. [`Parting`](parting::Parting) tells where two events that begin alike part, and [`Effect`] compares an event with the same one in which an agent did nothing,
-//! which distinguishes help from mere presence. [`mod@selection`] checks whether an event shows its label:
-//! whether the intended social event is visible in it.
+//! quietly an event ended. [`Parting`](parting::Parting) tells where two events that begin alike part, and
+//! [`Effect`] compares an event with the same one in which an agent did nothing, which distinguishes help
+//! from mere presence. [`mod@selection`] checks whether an event shows its label: whether the intended social
+//! event is visible in it.
 //!
 //! Key design decision: intentions are not consulted. An event in which helping was intended but had no
 //! effect shows no help. The same functions therefore serve simulated events, measured recordings (which
@@ -17,10 +18,13 @@
 //!
 //! ```
 //! use phase_evidence::{GoalOutcome, Track};
-//! use phase_model::{AgentBody, AgentId, Body, Entity, Goal, LandmarkId, PhysicsConfig, Sign, State, Vec2, arena};
+//! use phase_model::{
+//!     AgentBody, AgentId, Body, Entity, Goal, LandmarkId, PhysicsConfig, Sign, State, Vec2, arena,
+//! };
 //!
 //! let body = AgentBody { radius: 0.8, max_force: 450.0 };
-//! let physics = PhysicsConfig { walls: Vec::new(), agents: [body; 2], object_radii: [0.0; 2], object_count: 0 };
+//! let physics =
+//!     PhysicsConfig { walls: Vec::new(), agents: [body; 2], object_radii: [0.0; 2], object_count: 0 };
 //! let target = arena::LANDMARKS[LandmarkId::TOP_RIGHT];
 //! let states = [6.0, 4.0, 2.0, 0.0, 0.0].map(|left| {
 //!     let places = [target - Vec2::new(0.0, left), Vec2::new(9.0, 9.0), Vec2::ZERO, Vec2::ZERO];

@@ -5,7 +5,8 @@ use phase_model::{AgentId, Attitude, Entity, EventKind, Goal, ObjectId, Scene, S
 use phase_navigation::Map;
 use serde::{Deserialize, Serialize};
 
-/// What makes a social event of its kind visible. Judged by motion and grips, whatever was intended.
+/// Behaviour that makes the kind of a social event visible. Judged by motion and grips, whatever was
+/// intended.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Manner {
@@ -39,7 +40,7 @@ const MIN_STEPS: usize = 3;
 const MIN_CARRIED: f32 = 1.0;
 /// Minimum distance for an object to count as fetched or carried off (u).
 const MIN_FETCHED: f32 = 3.0;
-/// How much farther from its landmark an object must be for it to count as taken away (u).
+/// Least growth of the distance from its landmark for an object to count as taken away (u).
 const MIN_TAKEN: f32 = 2.0;
 /// Minimum distance for an object to count as cleared, and for an agent to have left its place (u).
 const MIN_CLEARED: f32 = 1.0;
@@ -173,7 +174,8 @@ pub(crate) fn carried_by_both(track: &Track, object: ObjectId) -> bool {
 fn cleared(scene: &Scene, track: &Track, helper: AgentId, object: Option<ObjectId>) -> bool {
     let others = ObjectId::ALL.into_iter().take(scene.objects.len()).filter(|&it| Some(it) != object);
     let moved_by = |other: ObjectId| {
-        let (one, it) = (Entity::Agent(helper), Entity::Object(other));
+        let one = Entity::Agent(helper);
+        let it = Entity::Object(other);
         let at = |state: &State, agent| contact::touching(&track.physics, state, Entity::Agent(agent), it);
         let steps = (1..track.states.len()).filter(|&t| {
             let state = &track.states[t];
@@ -185,8 +187,8 @@ fn cleared(scene: &Scene, track: &Track, helper: AgentId, object: Option<ObjectI
     others.map(moved_by).fold(0.0, f32::max) >= MIN_CLEARED
 }
 
-/// The helper obstructs the helpee at some time, holds nothing, and later has left that place while the helpee has
-/// come closer.
+/// The helper obstructs the helpee at some time, holds nothing, and later has left that place while the
+/// helpee has come closer.
 fn made_way(scene: &Scene, track: &Track, helper: AgentId, goal: Goal) -> bool {
     let held = track.states.iter().filter(|state| state.grips[helper].is_some()).count();
     let Some(&last) = in_the_way(scene, track, helper, goal).last() else { return false };
@@ -199,7 +201,8 @@ fn made_way(scene: &Scene, track: &Track, helper: AgentId, goal: Goal) -> bool {
 
 /// The hinderer is in the way, and meets the victim.
 fn blocked(scene: &Scene, track: &Track, hinderer: AgentId, goal: Goal) -> bool {
-    let (one, other) = (Entity::Agent(hinderer), Entity::Agent(hinderer.other()));
+    let one = Entity::Agent(hinderer);
+    let other = Entity::Agent(hinderer.other());
     in_the_way(scene, track, hinderer, goal).len() >= MIN_BLOCKING
         && contact::steps_touching(track, one, other).len() >= MIN_STEPS
 }
@@ -221,7 +224,8 @@ fn taken(track: &Track, hinderer: AgentId, object: ObjectId, goal: Goal) -> bool
     carried_away(&later, hinderer, object, goal, MIN_TAKEN)
 }
 
-/// Before the victim has touched the object, the hinderer carries it off, and not towards the victim's landmark.
+/// Before the victim has touched the object, the hinderer carries it off, and not towards the victim's
+/// landmark.
 fn hidden(track: &Track, hinderer: AgentId, object: ObjectId, goal: Goal) -> bool {
     let first = touching(track, hinderer.other(), object).first().copied().unwrap_or(track.steps());
     carried_away(&track.until(first), hinderer, object, goal, 0.0)

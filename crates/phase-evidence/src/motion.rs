@@ -1,9 +1,9 @@
-//! How an agent moved: how fast, how far, and how long it was in contact.
+//! Motion of an agent: how fast, how far, and how long it was in contact.
 
 use crate::{Track, contact};
 use phase_model::{AgentId, Entity, arena::STEP_SECONDS};
 
-/// How one agent moved in the first steps of an event.
+/// Motion of one agent in the first steps of an event.
 #[derive(Clone, PartialEq, Debug, Default)]
 pub struct MotionStatistics {
     /// Its speed in each step (u per second of physics): the distance between its origins before and after,
@@ -22,7 +22,8 @@ impl MotionStatistics {
     /// judged by outlines alone, so that recordings and simulations are measured alike.
     #[must_use]
     pub fn of(track: &Track, agent: AgentId, steps: usize) -> Self {
-        let (steps, entity) = (steps.min(track.steps()), Entity::Agent(agent));
+        let steps = steps.min(track.steps());
+        let entity = Entity::Agent(agent);
         let others: Vec<Entity> = track.physics.entities().filter(|&other| other != entity).collect();
         let states = track.states.iter().skip(1).take(steps);
         let in_contact = states

@@ -1,4 +1,4 @@
-//! Where and when two events part that begin alike.
+//! Place and time at which two events part that begin alike.
 
 use crate::Track;
 use phase_model::{Entity, Vec2};
@@ -6,7 +6,7 @@ use phase_model::{Entity, Vec2};
 /// A difference of place that a viewer sees (u): half the radius of a small agent.
 pub const VISIBLE: f32 = 0.5;
 
-/// How two events with the same bodies differ.
+/// Difference of two events with equal bodies.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Parting {
     /// The first step after which any place differs at all; `None` if the motion is the same.

@@ -1,4 +1,4 @@
-//! Which agent pursued which, and which one escaped.
+//! Pursuit and escape.
 
 use crate::Track;
 use phase_model::{AgentId, Entity, layout::room_of};
@@ -9,7 +9,7 @@ const MIN_SPEED: f32 = 0.1;
 /// Heading for something means that most of the motion goes towards it: the cosine of 60°.
 const TOWARDS_COSINE: f32 = 0.5;
 
-/// How one agent moved relative to the other, over a whole event.
+/// Motion of one agent relative to the other, over a whole event.
 #[derive(Clone, Copy, PartialEq, Debug, Default, Serialize, Deserialize)]
 pub struct Pursuit {
     /// Steps in which it moved at all.
@@ -18,11 +18,11 @@ pub struct Pursuit {
     pub towards: usize,
     /// Of these, steps in which it moved away from where the other had just been.
     pub away: usize,
-    /// How much closer the two were at the end than at the start (u); negative if farther.
+    /// Decrease of the distance between the two from start to end (u); negative if it grew.
     pub closed: f32,
     /// Minimum distance between their origins (u).
     pub nearest: f32,
-    /// How often it changed rooms.
+    /// Number of times that it changed rooms.
     pub rooms_changed: usize,
 }
 
@@ -30,7 +30,8 @@ impl Pursuit {
     /// Measures how an agent moved relative to the other.
     #[must_use]
     pub fn of(track: &Track, agent: AgentId) -> Self {
-        let (who, other) = (Entity::Agent(agent), Entity::Agent(agent.other()));
+        let who = Entity::Agent(agent);
+        let other = Entity::Agent(agent.other());
         let distance = |t: usize| {
             track.states.get(t).map_or(0.0, |state| state.position(who).distance(state.position(other)))
         };

@@ -1,11 +1,11 @@
-//! How quietly an event ended.
+//! Rest at the end of an event.
 
 use crate::Track;
 use phase_model::Entity;
 use phase_predicates::threshold::SEEN_MOTION;
 use serde::{Deserialize, Serialize};
 
-/// What an entity still did after a given step.
+/// Motion of an entity after a given step.
 #[derive(Clone, Copy, PartialEq, Debug, Default, Serialize, Deserialize)]
 pub struct Rest {
     /// Steps considered.
@@ -14,21 +14,23 @@ pub struct Rest {
     pub travelled: f32,
     /// Maximum distance from where it was at the beginning of them (u).
     pub displacement: f32,
-    /// Sum of all turning, either way (rad); 0 for objects, since a disc that turns looks like one that does not.
+    /// Sum of all turning, either way (rad); 0 for objects, since a disc that turns looks like one that does
+    /// not.
     pub turned: f32,
     /// Steps in which it moved more than 0.02 u or turned more than 0.02 rad.
     pub moving_steps: usize,
 }
 
 impl Rest {
-    /// What an entity did after step `from`.
+    /// Motion of an entity after step `from`.
     #[must_use]
     pub fn after(track: &Track, entity: Entity, from: usize) -> Self {
         let states = track.states.get(from..).unwrap_or_default();
         let Some(first) = states.first() else { return Self::default() };
         let mut rest = Self::default();
         for pair in states.windows(2) {
-            let (before, after) = (pair[0].body(entity), pair[1].body(entity));
+            let before = pair[0].body(entity);
+            let after = pair[1].body(entity);
             let moved = before.position.distance(after.position);
             let turned = match entity {
                 Entity::Agent(_) => (after.angle - before.angle).abs(),

@@ -3,7 +3,7 @@
 use phase_event::{Event, mean_state};
 use phase_model::{Entity, PhysicsConfig, State};
 
-/// Where every entity was at every step of one event.
+/// The state of every entity at every step of one event.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Track {
     /// Walls, radii and forces.

@@ -3,7 +3,10 @@
 use crate::Vec2;
 use serde::{Deserialize, Serialize};
 
-/// What an agent can do in one step. Directions are in the agent's own frame: forward is its heading.
+/// An action aᵢ of an agent in one step. Directions are in the agent's own frame: forward is its heading.
+///
+/// Actions have no arguments: the strength of a push is the agent's, and a diagonal push has 0.707 of it
+/// along each axis. An action is therefore one byte, and the number of actions bounds the width of a search.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 #[repr(u8)]

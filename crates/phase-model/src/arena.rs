@@ -4,8 +4,8 @@ use crate::Vec2;
 
 /// Side of the square arena (u).
 pub const SIDE: f32 = 20.0;
-/// Length of the arena's diagonal (u), rounded to three places as in the published code: the scale of distances in
-/// rewards.
+/// Length of the arena's diagonal (u), rounded to three places as in the published code: the scale of
+/// distances in rewards.
 pub const DIAGONAL: f32 = 28.284;
 /// Centre of the arena, from which all inner walls radiate (u).
 pub const CENTRE: Vec2 = Vec2::new(16.0, 12.0);

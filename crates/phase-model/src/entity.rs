@@ -29,7 +29,8 @@ impl Entity {
         Self::Object(ObjectId::ONE),
     ];
 
-    /// Position in [`Entity::ALL`] and in other arrays over all entities: agents 0 and 1, then objects 2 and 3.
+    /// Position in [`Entity::ALL`] and in other arrays over all entities: agents 0 and 1, then objects 2 and
+    /// 3.
     #[must_use]
     pub const fn index(self) -> usize {
         match self {

@@ -45,7 +45,8 @@ impl Segment {
     /// Whether two segments have a point in common; touching counts, parallel overlap does not.
     #[must_use]
     pub fn crosses(self, other: Self) -> bool {
-        let (d1, d2) = (self.b - self.a, other.b - other.a);
+        let d1 = self.b - self.a;
+        let d2 = other.b - other.a;
         let denominator = d1.perp_dot(d2);
         if denominator == 0.0 {
             return false;

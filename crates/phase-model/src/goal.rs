@@ -51,7 +51,22 @@ impl TryFrom<i8> for Sign {
     }
 }
 
-/// A physical goal.
+/// A physical goal gᵢ of an agent: a condition on the state, to be achieved or avoided by its [`Sign`].
+///
+/// A goal of agent 0 may be about agent 1 or an object: it names its subject. Goals are common knowledge in
+/// PHASE; what an agent wants of the other agent's goal is its [`Attitude`].
+///
+/// ```
+/// use phase_model::{AgentId, Entity, Goal, LandmarkId, Sign};
+///
+/// let goal = Goal::AgentOnLandmark {
+///     agent: AgentId::ONE,
+///     landmark: LandmarkId::TOP_LEFT,
+///     sign: Sign::Positive,
+/// };
+/// assert_eq!(goal.subject(), Entity::Agent(AgentId::ONE));
+/// assert_eq!(goal.negated().sign(), Sign::Negative);
+/// ```
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Serialize, Deserialize)]
 #[serde(tag = "kind", rename_all = "snake_case", deny_unknown_fields)]
 pub enum Goal {
@@ -95,7 +110,7 @@ impl Goal {
         }
     }
 
-    /// The same goal with the other sign.
+    /// This goal with the other sign.
     #[must_use]
     pub const fn negated(self) -> Self {
         match self {
@@ -156,7 +171,10 @@ impl Goal {
     }
 }
 
-/// Social utility weight α of an agent towards the other; −1, 0, 1 in files.
+/// Social utility weight α of an agent towards the other, in Equation 1 of the paper; −1, 0, 1 in files.
+///
+/// A neutral agent is rewarded for its own goal alone, a social one for the other's goal alone: positively if
+/// it helps, negatively if it hinders. See [`social_reward`](crate::reward::social_reward).
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Default, Serialize, Deserialize)]
 #[serde(into = "i8", try_from = "i8")]
 pub enum Attitude {
@@ -200,7 +218,9 @@ impl TryFrom<i8> for Attitude {
     }
 }
 
-/// The relation between the two agents, as a viewer would name it.
+/// The relation between the two agents, as a viewer would name it: the label of the paper's Task 1.
+///
+/// [`Relation::of`] derives it from goals and attitudes, so that a scene cannot disagree with its label.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Relation {

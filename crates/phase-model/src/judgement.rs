@@ -11,15 +11,15 @@ pub struct Judgement {
     pub goals: [Vec<(Goal, f64)>; AGENT_COUNT],
     /// The relation between the two.
     pub relation: RelationProbabilities,
-    /// Who helps or hinders whom, if the model says.
+    /// Probabilities of who helps or hinders whom, if the model says.
     pub roles: Option<RoleProbabilities>,
-    /// The share of people who would report each relation, if the model says. People report what they saw, which is not always
-    /// what is true.
+    /// The share of people who would report each relation, if the model says. People report what they saw,
+    /// which is not always what is true.
     pub reported: Option<RelationProbabilities>,
 }
 
-/// The probability that either agent helps, and that it hinders, the other. At most one of the four is true; what they lack
-/// to 1 is the probability that both agents pursue goals of their own.
+/// The probability that either agent helps, and that it hinders, the other. At most one of the four is true;
+/// what they lack to 1 is the probability that both agents pursue goals of their own.
 #[derive(Clone, Copy, PartialEq, Debug, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct RoleProbabilities {

@@ -9,7 +9,8 @@ use thiserror::Error;
 
 /// Length of a slot, from the centre to the boundary (u).
 pub const SLOT_LENGTH: f32 = 10.0;
-/// Clearance that ways keep between a body and the ends of a door (u); less where the door leaves no room for it.
+/// Clearance that ways keep between a body and the ends of a door (u); less where the door leaves no room for
+/// it.
 pub const DOOR_CLEARANCE: f32 = 0.1;
 
 /// The two rooms on either side of each slot.
@@ -166,7 +167,8 @@ impl TryFrom<u8> for Flip {
     }
 }
 
-/// Share of the length from an agent's base to its origin by which a place directly before a line is before it.
+/// Share of the length from an agent's base to its origin by which a place directly before a line is before
+/// it.
 const BEFORE_LINE: f32 = 0.01;
 
 /// An invalid layout number.
@@ -254,9 +256,9 @@ impl Layout {
         (from < to).then(|| along(slot, from, to))
     }
 
-    /// The place of an entity on its way through the rooms (u): its origin, unless an agent's origin is past the line
-    /// of an opening that its base, the widest part, does not fit through. That agent is still on the side of its
-    /// base, and its place is directly before the line.
+    /// The place of an entity on its way through the rooms (u): its origin, unless an agent's origin is past
+    /// the line of an opening that its base, the widest part, does not fit through. That agent is still on
+    /// the side of its base, and its place is directly before the line.
     #[must_use]
     pub fn place_of(self, physics: &PhysicsConfig, state: &State, entity: Entity) -> Vec2 {
         let body = state.body(entity);
@@ -271,7 +273,8 @@ impl Layout {
         let mut part = 1.0_f32;
         for (slot, direction) in SlotId::ALL.into_iter().zip(SLOT_DIRECTIONS) {
             let side = |point: Vec2| direction.perp_dot(point - arena::CENTRE);
-            let (of_base, of_origin) = (side(base), side(here));
+            let of_base = side(base);
+            let of_origin = side(here);
             if (of_base < 0.0) == (of_origin < 0.0) {
                 continue;
             }

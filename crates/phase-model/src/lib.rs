@@ -20,7 +20,8 @@
 //!     Strength, Vec2,
 //! };
 //!
-//! let goal = Goal::AgentOnLandmark { agent: AgentId::ONE, landmark: LandmarkId::TOP_LEFT, sign: Sign::Positive };
+//! let landmark = LandmarkId::TOP_LEFT;
+//! let goal = Goal::AgentOnLandmark { agent: AgentId::ONE, landmark, sign: Sign::Positive };
 //! let spec = |attitude, x| AgentSpec {
 //!     size: Size::Small,
 //!     strength: Strength::Strong,
@@ -29,7 +30,8 @@
 //!     start: Body::at_rest(Vec2::new(x, 8.0), 0.0),
 //! };
 //! let agents = [spec(Attitude::Help, 12.0), spec(Attitude::Neutral, 20.0)];
-//! let scene = Scene { layout: Layout::new(2, None)?, agents, objects: Vec::new(), kind: EventKind::Helping };
+//! let layout = Layout::new(2, None)?;
+//! let scene = Scene { layout, agents, objects: Vec::new(), kind: EventKind::Helping };
 //! scene.validate()?;
 //! assert_eq!(scene.relation(), Relation::Friendly);
 //! assert_eq!(scene.physics().walls.len(), 2); // of layout 2

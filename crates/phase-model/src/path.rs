@@ -12,7 +12,8 @@ const LONGEST_NAME: usize = 255;
 /// Names that Windows gives to devices, in any case and with any ending; `COM1` to `LPT9` are checked apart.
 const DEVICES: [&str; 6] = ["con", "prn", "aux", "nul", "conin$", "conout$"];
 
-/// Why a text cannot be the name of a file, or a path inside a folder. The text continues a sentence that begins with its name.
+/// The reason why a text cannot be the name of a file, or a path inside a folder. The text continues a
+/// sentence that begins with its name.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Error)]
 pub enum PathError {
     /// It is empty or too long.
@@ -63,8 +64,9 @@ fn is_device(name: &str) -> bool {
     numbered || DEVICES.contains(&stem.as_str())
 }
 
-/// A path of a file inside a folder, such as `events/a.json`: relative, with `/`, and without a part that leads elsewhere. A path
-/// that a file names is of this type wherever it is used, so that no file can name one outside of its folder.
+/// A path of a file inside a folder, such as `events/a.json`: relative, with `/`, and without a part that
+/// leads elsewhere. A path that a file names is of this type wherever it is used, so that no file can name
+/// one outside of its folder.
 #[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Serialize)]
 #[serde(transparent)]
 pub struct RelativePath(String);
@@ -95,7 +97,7 @@ impl RelativePath {
         self.0.rsplit('/').next().unwrap_or_default()
     }
 
-    /// Where it is, if it is below this folder.
+    /// The path of the file, if it is below this folder.
     #[must_use]
     pub fn below(&self, folder: &Path) -> PathBuf {
         let mut path = folder.to_owned();

@@ -58,7 +58,8 @@ fn convex_depth(a: &[Vec2], b: &[Vec2]) -> f32 {
             .fold((f32::INFINITY, f32::NEG_INFINITY), |(min, max), x| (min.min(x), max.max(x)))
     };
     let overlap = |normal: Vec2| {
-        let ((a_min, a_max), (b_min, b_max)) = (extent(a, normal), extent(b, normal));
+        let (a_min, a_max) = extent(a, normal);
+        let (b_min, b_max) = extent(b, normal);
         (a_max - b_min).min(b_max - a_min)
     };
     normals(a).into_iter().chain(normals(b)).map(overlap).fold(f32::INFINITY, f32::min)

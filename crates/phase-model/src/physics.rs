@@ -106,7 +106,8 @@ impl Strength {
 pub const GROUND_FRICTION: f32 = 100.0;
 /// Maximum distance between a grab point and an object's surface at which grabbing works (u).
 pub const GRAB_REACH: f32 = 0.5;
-/// Overlap that a released object and its holder may keep, skins included, until one of them has moved away (u).
+/// Overlap that a released object and its holder may keep, skins included, until one of them has moved away
+/// (u).
 pub const RELEASED_OVERLAP: f32 = 0.1;
 /// Distance from its place at the release beyond which a body at rest is clear of its former partner (u).
 pub const RELEASE_CLEARANCE: f32 = 0.1;

@@ -15,6 +15,9 @@ pub enum PredicateTarget {
 }
 
 /// A predicate of the paper's table of definitions, with its arguments.
+///
+/// It is a name without a truth value; the crate `phase-predicates` evaluates it in a state. Its text, such
+/// as `On(object 0, landmark 1)`, is that of files and pages.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Predicate {
@@ -28,7 +31,7 @@ pub enum Predicate {
     Close(Entity, PredicateTarget),
 }
 
-/// A predicate or its negation.
+/// A predicate or its negation: the form of subgoals, and of goals by `From`.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Serialize, Deserialize)]
 pub struct Literal {
     /// The predicate.

@@ -94,10 +94,13 @@ pub struct ObjectSpec {
 }
 
 /// The physical and the social configuration of an event (paper, "Joint Physical-Social Simulation").
-/// [`crate::validate`] states which scenes are valid.
+///
+/// It holds everything that a simulation needs besides its settings and seed: walls, bodies with sizes and
+/// strengths, goals, attitudes, and the kind of event that it was set up for. Any values can be written down;
+/// `validate` says which scenes are valid, and the functions that simulate or render one call it.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Scene {
-    /// Where the walls stand.
+    /// The walls.
     pub layout: Layout,
     /// The two agents.
     pub agents: [AgentSpec; AGENT_COUNT],

@@ -5,7 +5,10 @@ use crate::{
 };
 use serde::{Deserialize, Serialize};
 
-/// Pose and motion of one body.
+/// Pose and motion of one body, in world coordinates: the arena is 20 u × 20 u, x to the right, y upwards.
+///
+/// An angle of 0 rad faces upwards, and angles grow to the left (counter-clockwise). An agent's position is
+/// the origin of its trapezoid, an object's the centre of its disc.
 #[derive(Clone, Copy, PartialEq, Debug, Default, Serialize, Deserialize)]
 pub struct Body {
     /// The body's origin (u): mid-height of an agent (not its centre of mass), centre of an object.
@@ -93,7 +96,7 @@ pub struct Grip {
     pub relative_angle: f32,
 }
 
-/// Which pairs of bodies are in physical contact, as the dynamics reported it after the last substep.
+/// The pairs of bodies that are in physical contact, as the dynamics reported it after the last substep.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Default, Serialize, Deserialize)]
 pub struct Contacts(u8);
 
@@ -120,7 +123,8 @@ impl Contacts {
 
     /// One bit for each of the six unordered pairs; none for a pair of equals.
     const fn bit(a: Entity, b: Entity) -> u8 {
-        let (a, b) = (a.index(), b.index());
+        let a = a.index();
+        let b = b.index();
         let (low, high) = if a < b { (a, b) } else { (b, a) };
         match (low, high) {
             (0, 1) => 1,
@@ -134,12 +138,24 @@ impl Contacts {
     }
 }
 
-/// The complete physical state: at most four bodies, with grips and contacts.
+/// The complete physical state s of the Dec-POMDP: at most four bodies, with grips and contacts.
+///
+/// Bodies are indexed by [`Entity`]; those of objects that a scene does not have are ignored.
+/// A state is plain data without pointers, small enough to be copied for every particle of a belief.
+///
+/// ```
+/// use phase_model::{AgentId, Body, Entity, State, Vec2};
+///
+/// let places = [Vec2::new(10.0, 6.0), Vec2::new(20.0, 16.0), Vec2::ZERO, Vec2::ZERO];
+/// let state = State::new(places.map(|place| Body::at_rest(place, 0.0)));
+/// assert_eq!(state.position(Entity::Agent(AgentId::ONE)).x, 20.0);
+/// assert_eq!(state.held_object(AgentId::ONE), None);
+/// ```
 #[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
 pub struct State {
     /// Bodies by [`Entity::index`]; those past [`PhysicsConfig::entity_count`] are meaningless.
     pub bodies: [Body; MAX_ENTITIES],
-    /// What each agent holds.
+    /// The grip of each agent, if it holds an object.
     pub grips: [Option<Grip>; AGENT_COUNT],
     /// Contacts between bodies (not with walls) after the last substep.
     pub contacts: Contacts,
@@ -226,6 +242,10 @@ impl State {
 }
 
 /// State transitions of the Dec-POMDP, P(s′ | s, {aᵢ}, {fᵢ}); the forces fᵢ belong to the implementor.
+///
+/// Implementations are deterministic: equal states and actions give equal bits. A step lasts 1/12 s of
+/// simulated time. Planning, beliefs and inference are generic over this trait, so that they run without a
+/// physics engine.
 pub trait Dynamics {
     /// Advances the state by one step: five substeps of 1/60 s under the two agents' actions.
     fn step(&self, state: &mut State, actions: [Action; AGENT_COUNT]);

@@ -35,7 +35,7 @@ pub enum SceneError {
         agent: AgentId,
         /// The object.
         object: ObjectId,
-        /// How many objects the scene has.
+        /// Number of objects of the scene.
         count: usize,
     },
     /// A goal is about an agent touching itself.
@@ -62,7 +62,7 @@ pub enum SceneError {
         agent: AgentId,
         /// `helping` or `hindering`.
         role: &'static str,
-        /// How the goal has to be derived from the other's.
+        /// Text that follows in the message, where the sign has to be the other one.
         sign: &'static str,
     },
     /// Two bodies overlap at the start.
@@ -135,7 +135,8 @@ impl Scene {
     /// The first rule that is violated.
     pub fn validate_without_overlap(&self) -> Result<(), SceneError> {
         self.validate()?;
-        let (physics, state) = (self.physics(), self.initial_state());
+        let physics = self.physics();
+        let state = self.initial_state();
         let outlines: Vec<(Entity, Outline)> = physics
             .entities()
             .map(|entity| (entity, Outline::of(&physics, entity, state.body(entity))))

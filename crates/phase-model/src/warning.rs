@@ -49,18 +49,21 @@ impl fmt::Display for SceneWarning {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         match *self {
             Self::Overlap { first, second, depth } => {
-                let (first, second) = (field_name(first), field_name(second));
+                let first = field_name(first);
+                let second = field_name(second);
                 write!(formatter, "{first}.start and {second}.start: the bodies overlap by {depth:.2} u")
             }
             Self::AcrossWall { body, depth } => {
                 write!(formatter, "{}.start: the body stands across a wall by {depth:.2} u", field_name(body))
             }
             Self::Kind { kind, follows } => {
-                let (kind, follows) = (kind.name(), follows.name());
+                let kind = kind.name();
+                let follows = follows.name();
                 write!(formatter, "event is {kind:?}, but goals and attitudes make it {follows:?}")
             }
             Self::Degrees { body, angle } => {
-                let (field, radians) = (field_name(body), angle.to_radians());
+                let field = field_name(body);
+                let radians = angle.to_radians();
                 write!(
                     formatter,
                     "{field}.start: the angle {angle} is in radians; {angle} degrees are {radians:.4} rad"
@@ -77,7 +80,8 @@ impl Scene {
     /// of [`Scene::validate`].
     #[must_use]
     pub fn warnings(&self) -> Vec<SceneWarning> {
-        let (physics, state) = (self.physics(), self.initial_state());
+        let physics = self.physics();
+        let state = self.initial_state();
         let body = |entity: Entity| (entity, Outline::of(&physics, entity, state.body(entity)));
         let outlines: Vec<(Entity, Outline)> = physics.entities().map(body).collect();
         let mut warnings = Vec::new();
@@ -97,7 +101,8 @@ impl Scene {
                 warnings.push(SceneWarning::Degrees { body: first, angle });
             }
         }
-        let (kind, follows) = (self.kind, EventKind::of(self.goals(), self.attitudes()));
+        let kind = self.kind;
+        let follows = EventKind::of(self.goals(), self.attitudes());
         if kind != follows {
             warnings.push(SceneWarning::Kind { kind, follows });
         }

@@ -1,13 +1,14 @@
 //! Words for people: the colours of bodies and landmarks, goals, attitudes and kinds of events.
 //!
-//! Pages, captions, instructions and tables take their words from here, so that what a film draws has one name
-//! everywhere. Colours depend on the palette of a film and are therefore [`Names`]; [`Names::PAPER`] is that of
-//! the published videos.
+//! Pages, captions, instructions and tables take their words from here, so that what a film draws has one
+//! name everywhere. Colours depend on the palette of a film and are therefore [`Names`]; [`Names::PAPER`] is
+//! that of the published videos.
 //!
 //! ```
 //! use phase_model::{AgentId, Goal, LandmarkId, ObjectId, Sign, words::Names};
 //!
-//! let (object, landmark) = (ObjectId::ZERO, LandmarkId::TOP_LEFT);
+//! let object = ObjectId::ZERO;
+//! let landmark = LandmarkId::TOP_LEFT;
 //! let goal = Goal::ObjectOnLandmark { object, landmark, sign: Sign::Positive };
 //! let names = Names::PAPER;
 //! assert_eq!(names.wants(goal, AgentId::ZERO), "the light blue object on the blue landmark");

@@ -44,7 +44,8 @@ proptest! {
         let ours = Outline::of(&physics, Entity::Agent(AgentId::ZERO), &agent)
             .overlaps(&Outline::of(&physics, Entity::Object(ObjectId::ZERO), &object));
         // parry reports 0 for overlap, so overlap beyond the tolerance is tested with a smaller disc.
-        let (a, b) = (pose(&agent), pose(&object));
+        let a = pose(&agent);
+        let b = pose(&object);
         let apart = distance(&a, &polygon(r), &b, &Ball::new(s)).expect("supported").distance;
         let deep = distance(&a, &polygon(r), &b, &Ball::new(s - DOUBT)).expect("supported").distance;
         prop_assert!(!(ours && apart > DOUBT), "overlap seen, {apart} apart");
@@ -57,7 +58,8 @@ proptest! {
         physics.agents[1].radius = s;
         let ours = Outline::of(&physics, Entity::Agent(AgentId::ZERO), &one)
             .overlaps(&Outline::of(&physics, Entity::Agent(AgentId::ONE), &two));
-        let (a, b) = (pose(&one), pose(&two));
+        let a = pose(&one);
+        let b = pose(&two);
         let apart = distance(&a, &polygon(r), &b, &polygon(s)).expect("supported").distance;
         let deep = distance(&a, &polygon(r * 0.998), &b, &polygon(s * 0.998)).expect("supported").distance;
         prop_assert!(!(ours && apart > DOUBT), "overlap seen, {apart} apart");
@@ -71,13 +73,17 @@ proptest! {
         let theirs = ParrySegment::new(Vector::new(wall.a.x, wall.a.y), Vector::new(wall.b.x, wall.b.y));
         let physics = physics(r, r);
         let ours = Outline::of(&physics, Entity::Agent(AgentId::ZERO), &agent).overlaps_wall(wall);
-        let apart = distance(&pose(&agent), &polygon(r), &Pose::identity(), &theirs).expect("supported").distance;
-        let deep = distance(&pose(&agent), &polygon(r * 0.998), &Pose::identity(), &theirs).expect("supported").distance;
+        let apart =
+            distance(&pose(&agent), &polygon(r), &Pose::identity(), &theirs).expect("supported").distance;
+        let inner = polygon(r * 0.998);
+        let deep = distance(&pose(&agent), &inner, &Pose::identity(), &theirs).expect("supported").distance;
         prop_assert!(!(ours && apart > DOUBT), "overlap seen, {apart} apart");
         prop_assert!(ours || deep > 0.0, "overlap missed");
         let disc = Outline::of(&physics, Entity::Object(ObjectId::ZERO), &agent).overlaps_wall(wall);
-        let apart = distance(&pose(&agent), &Ball::new(r), &Pose::identity(), &theirs).expect("supported").distance;
-        let deep = distance(&pose(&agent), &Ball::new(r - DOUBT), &Pose::identity(), &theirs).expect("supported").distance;
+        let apart =
+            distance(&pose(&agent), &Ball::new(r), &Pose::identity(), &theirs).expect("supported").distance;
+        let inner = Ball::new(r - DOUBT);
+        let deep = distance(&pose(&agent), &inner, &Pose::identity(), &theirs).expect("supported").distance;
         prop_assert!(!(disc && apart > DOUBT), "overlap seen, {apart} apart");
         prop_assert!(disc || deep > 0.0, "overlap missed");
     }
@@ -94,7 +100,8 @@ fn forward_is_up_and_left_turns_are_positive() {
 fn mass_and_inertia_of_a_trapezoid_by_integration() {
     // Midpoint sums over a fine grid, density 1.
     let radius = 1.2_f32;
-    let (mut mass, mut moment) = (0.0_f64, 0.0_f64);
+    let mut mass = 0.0_f64;
+    let mut moment = 0.0_f64;
     let cells = 600;
     let step = 2.0 * f64::from(radius) / f64::from(cells);
     for row in 0..cells {

@@ -71,7 +71,8 @@ proptest! {
     fn flipped_walls_are_the_images_of_the_walls(base in 0..22_u8, flip in 0..4_u8) {
         let flip = Flip::try_from(flip).unwrap();
         let normal = |segment: &Segment| {
-            let (a, b) = (segment.a, segment.b);
+            let a = segment.a;
+            let b = segment.b;
             if (a.x, a.y) < (b.x, b.y) { format!("{a}{b}") } else { format!("{b}{a}") }
         };
         let mut images: Vec<String> = Layout::new(base, None).unwrap().walls().iter()
@@ -85,7 +86,12 @@ proptest! {
     }
 
     #[test]
-    fn a_flip_twice_is_no_flip(flip in 0..4_u8, x in 6.0..26.0_f32, y in 2.0..22.0_f32, angle in -9.0..9.0_f32) {
+    fn a_flip_twice_is_no_flip(
+        flip in 0..4_u8,
+        x in 6.0..26.0_f32,
+        y in 2.0..22.0_f32,
+        angle in -9.0..9.0_f32,
+    ) {
         let flip = Flip::try_from(flip).unwrap();
         let point = Vec2::new(x, y);
         prop_assert!(flip.point(flip.point(point)).distance(point) < 1e-5);
@@ -128,7 +134,8 @@ fn an_agent_in_a_door_too_narrow_for_its_base_is_on_the_side_of_its_base() {
     };
     let mut state = State::new([Body::default(); MAX_ENTITIES]);
     let place = |state: &State, entity: Entity| layout.place_of(&physics, state, entity);
-    let (first, second) = (Entity::Agent(AgentId::ZERO), Entity::Agent(AgentId::ONE));
+    let first = Entity::Agent(AgentId::ZERO);
+    let second = Entity::Agent(AgentId::ONE);
     // Heading for −x, its origin past the wall's line at x = 16.
     let west = core::f32::consts::FRAC_PI_2;
     for entity in [first, second, Entity::Object(ObjectId::ZERO)] {

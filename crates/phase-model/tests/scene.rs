@@ -1,4 +1,4 @@
-//! Which scenes are rejected, and which relations follow from goals and attitudes.
+//! Scenes that are rejected, and relations as they follow from goals and attitudes.
 
 use phase_model::{
     AgentId, AgentSpec, Attitude, Body, EventKind, Flip, Goal, LandmarkId, Layout, ObjectId, ObjectSpec,
@@ -126,7 +126,8 @@ fn a_mirror_turns_everything_over() {
     for flip in Flip::ALL {
         let mirrored = scene.mirrored(flip).expect("layout 0 is no reflection");
         for (mirrored, agent) in mirrored.agents.iter().zip(&scene.agents) {
-            let (body, image) = (agent.start, mirrored.start);
+            let body = agent.start;
+            let image = mirrored.start;
             assert!(image.forward().distance(flip.vector(body.forward())) < 1e-6, "{flip:?}");
             assert!(flip.point(image.position).distance(body.position) < 1e-5, "{flip:?}");
         }

@@ -6,7 +6,8 @@ use phase_model::{
     SceneWarning, Sign, Size, Strength, Vec2, arena,
 };
 
-/// Two small agents that both want object 0, of radius 0.8, on landmark 1, all far from each other and from walls.
+/// Two small agents that both want object 0, of radius 0.8, on landmark 1, all far from each other and from
+/// walls.
 fn scene() -> Scene {
     let goal = Goal::ObjectOnLandmark {
         object: ObjectId::ZERO,
@@ -43,7 +44,8 @@ fn a_scene_that_makes_sense_gives_no_warning() {
 #[test]
 fn overlapping_bodies_are_named_with_their_depth() {
     let mut crowded = scene();
-    // The agent's right side at mid-height is 0.8 u from its origin and slants; its front, 0.8 u before the origin, does not.
+    // The agent's right side at mid-height is 0.8 u from its origin and slants; its front, 0.8 u before the
+    // origin, does not.
     crowded.objects[0].start.position = Vec2::new(10.0, 14.0 + 0.8 + 0.8 - 0.25);
     let text = warning(&crowded);
     assert_eq!(text, "agents[0].start and objects[0].start: the bodies overlap by 0.25 u");

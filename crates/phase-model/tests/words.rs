@@ -7,7 +7,8 @@ use phase_model::{
 
 #[test]
 fn goals_read_as_sentences() {
-    let (positive, negative) = (Sign::Positive, Sign::Negative);
+    let positive = Sign::Positive;
+    let negative = Sign::Negative;
     let on = |agent, sign| Goal::AgentOnLandmark { agent, landmark: LandmarkId::BOTTOM_LEFT, sign };
     let put = |sign| Goal::ObjectOnLandmark { object: ObjectId::ONE, landmark: LandmarkId::TOP_LEFT, sign };
     let touch = |sign| Goal::Touch { agent: AgentId::ZERO, other: AgentId::ONE, sign };
@@ -30,7 +31,8 @@ fn goals_read_as_sentences() {
 #[test]
 fn goals_read_as_what_is_wanted() {
     let landmark = LandmarkId::TOP_LEFT;
-    let (positive, negative) = (Sign::Positive, Sign::Negative);
+    let positive = Sign::Positive;
+    let negative = Sign::Negative;
     let on = |agent, sign| Goal::AgentOnLandmark { agent, landmark, sign };
     let object = Goal::ObjectOnLandmark { object: ObjectId::ONE, landmark, sign: positive };
     let touch = |sign| Goal::Touch { agent: AgentId::ZERO, other: AgentId::ONE, sign };

@@ -90,7 +90,8 @@ impl Shape {
         !is_inside
             || walls.iter().any(|wall| {
                 let wall = Segment { a: wall.a - load, b: wall.b - load };
-                let (low, high) = (wall.a.min(wall.b), wall.a.max(wall.b));
+                let low = wall.a.min(wall.b);
+                let high = wall.a.max(wall.b);
                 let is_near = low.cmple(self.max).all() && high.cmpge(self.min).all();
                 is_near
                     && (self.outlines.iter().any(|outline| outline.overlaps_wall(wall))

@@ -18,7 +18,8 @@ pub struct AssemblyField {
     assembly: Assembly,
     walls: Vec<Segment>,
     parameters: AssemblyParameters,
-    /// Cost to go less the load's straight distance to the target (u), by node: flat where the way is straight.
+    /// Cost to go less the load's straight distance to the target (u), by node: flat where the way is
+    /// straight.
     excess: Vec<f32>,
     /// Whether each node is without collisions.
     free: Vec<bool>,
@@ -36,8 +37,8 @@ pub struct Descent {
 }
 
 impl AssemblyField {
-    /// The field of a target. A load closer to a target point than `reach` (u) has arrived in every orientation
-    /// without collisions.
+    /// The field of a target. A load closer to a target point than `reach` (u) has arrived in every
+    /// orientation without collisions.
     #[must_use]
     pub fn new(
         map: &Map,
@@ -89,9 +90,9 @@ impl AssemblyField {
         Self { target, assembly: *assembly, walls: map.walls().to_vec(), parameters, excess, free, moves }
     }
 
-    /// Cost of the cheapest motion to the target (u) from a position of the load (u) and its angle (rad): length of
-    /// the load's path, [`AssemblyParameters::turning`] for its rotation about the load, and the price of collisions.
-    /// Continuous, finite and at least 0.
+    /// Cost of the cheapest motion to the target (u) from a position of the load (u) and its angle (rad):
+    /// length of the load's path, [`AssemblyParameters::turning`] for its rotation about the load, and the
+    /// price of collisions. Continuous, finite and at least 0.
     #[must_use]
     pub fn distance(&self, load: Vec2, angle: f32) -> f32 {
         let excess: f32 = lattice::around(load, angle)
@@ -158,15 +159,16 @@ fn free_nodes(map: &Map, assembly: &Assembly, overlap: f32) -> Vec<bool> {
     for orientation in 0..ORIENTATIONS {
         let shape = assembly.shape(orientation as f32 * TURN, overlap);
         for index in 0..SIDE * SIDE {
-            let (row, column) = (index / SIDE, index % SIDE);
+            let row = index / SIDE;
+            let column = index % SIDE;
             free.push(!shape.collides(Node { column, row, orientation }.position(), map.walls()));
         }
     }
     free
 }
 
-/// Sets the costs of the nodes from which the load has only a straight way to go, or none. If there are none without
-/// collisions, those within reach at the price of a unit of length in collision.
+/// Sets the costs of the nodes from which the load has only a straight way to go, or none. If there are none
+/// without collisions, those within reach at the price of a unit of length in collision.
 fn seed(cost: &mut [f32], free: &[bool], map: &Map, target: Target, reach: f32, collision: f32) {
     let is_there = |node: Node| match target {
         Target::Point(point) => {
@@ -189,8 +191,8 @@ fn seed(cost: &mut [f32], free: &[bool], map: &Map, target: Target, reach: f32, 
     }
 }
 
-/// Extends the straight ways outwards, orientation by orientation: a free node has one if the two nodes between which
-/// its line to the target passes have.
+/// Extends the straight ways outwards, orientation by orientation: a free node has one if the two nodes
+/// between which its line to the target passes have.
 fn extend_straight(cost: &mut [f32], free: &[bool], point: Vec2) {
     let origin = lattice::around(point, 0.0)[0].0;
     // The two nodes on either side of the target start the two halves of each axis.
@@ -225,8 +227,8 @@ fn extend_straight(cost: &mut [f32], free: &[bool], point: Vec2) {
     }
 }
 
-/// The cost of a node; in a collision not more than a little above that of the best free node beside it, with the move
-/// that leads there.
+/// The cost of a node; in a collision not more than a little above that of the best free node beside it, with
+/// the move that leads there.
 fn capped(
     node: Node,
     cost: &[f32],

@@ -2,7 +2,8 @@
 
 use crate::accuracy::LAST_BUCKET;
 
-/// Nodes by cost (u). A bucket is no wider than the shortest edge, so that the order within it does not matter.
+/// Nodes by cost (u). A bucket is no wider than the shortest edge, so that the order within it does not
+/// matter.
 #[derive(Debug)]
 pub(crate) struct Buckets {
     width: f32,

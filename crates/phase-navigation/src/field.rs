@@ -102,9 +102,9 @@ impl Field {
         self.target
     }
 
-    /// Cost of the cheapest path from a point to the target (u): its length, and the prices of [`NavigationParameters`] on it.
-    /// At least 0, finite for every finite point, and the straight distance where walls and obstacles
-    /// leave the straight line free.
+    /// Cost of the cheapest path from a point to the target (u): its length, and the prices of
+    /// [`NavigationParameters`] on it. At least 0, finite for every finite point, and the straight distance
+    /// where walls and obstacles leave the straight line free.
     #[must_use]
     pub fn distance(&self, from: Vec2) -> f32 {
         self.way(from).cost
@@ -119,7 +119,8 @@ impl Field {
     /// The point on the cheapest path at a length from its start (u), or its end.
     #[must_use]
     pub fn waypoint(&self, from: Vec2, ahead: f32) -> Vec2 {
-        let (mut start, mut left) = (from, ahead);
+        let mut start = from;
+        let mut left = ahead;
         for end in self.path(from) {
             let length = start.distance(end);
             if length > left {
@@ -195,8 +196,8 @@ impl Field {
     }
 }
 
-/// A point on an axis of the arena, where a wall or a closed door may hide it from everywhere, is taken to lie on
-/// the right and below.
+/// A point on an axis of the arena, where a wall or a closed door may hide it from everywhere, is taken to
+/// lie on the right and below.
 fn off_axes(point: Vec2) -> Vec2 {
     let offset = point - arena::CENTRE;
     let shift = |along: f32, by: f32| if along.abs() < OFF_AXIS { by - along } else { 0.0 };
@@ -208,7 +209,8 @@ pub(crate) fn nearest(target: Target, from: Vec2) -> Vec2 {
     match target {
         Target::Point(point) => point,
         Target::Room { room, depth } => {
-            let (mut low, mut high) = (arena::MIN, arena::MAX);
+            let mut low = arena::MIN;
+            let mut high = arena::MAX;
             if room == RoomId::TOP_LEFT || room == RoomId::BOTTOM_LEFT {
                 high.x = arena::CENTRE.x - depth;
             } else {

@@ -4,8 +4,8 @@ use phase_model::{Vec2, arena};
 
 /// Distance between neighbouring positions (u).
 pub(crate) const SPACING: f32 = 0.5;
-/// Positions along each side of the arena. They lie in the middles of squares, so that none is on a wall and one is
-/// in the middle of each door of 2.5 u.
+/// Positions along each side of the arena. They lie in the middles of squares, so that none is on a wall and
+/// one is in the middle of each door of 2.5 u.
 pub(crate) const SIDE: usize = 40;
 /// Number of orientations.
 pub(crate) const ORIENTATIONS: usize = 16;
@@ -33,7 +33,8 @@ impl Node {
     }
 
     pub(crate) const fn from_index(index: usize) -> Self {
-        let (plane, column) = (index / SIDE, index % SIDE);
+        let plane = index / SIDE;
+        let column = index % SIDE;
         Self { column, row: plane % SIDE, orientation: plane / SIDE }
     }
 
@@ -87,7 +88,9 @@ pub(crate) fn around(load: Vec2, angle: f32) -> [(Node, f32); 8] {
     // The remainder is exact for all angles that occur, and never negative.
     let orientation = whole.rem_euclid(ORIENTATIONS as f32) as usize % ORIENTATIONS;
     core::array::from_fn(|k| {
-        let (i, j, t) = (k & 1, k >> 1 & 1, k >> 2);
+        let i = k & 1;
+        let j = k >> 1 & 1;
+        let t = k >> 2;
         let share = |bit: usize, fraction: f32| if bit == 1 { fraction } else { 1.0 - fraction };
         let node = Node { column: column + i, row: row + j, orientation: (orientation + t) % ORIENTATIONS };
         (node, share(i, x) * share(j, y) * share(t, left))

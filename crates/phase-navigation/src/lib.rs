@@ -1,31 +1,34 @@
-//! Travel distances through the arena: how far it is to a target for a body of some width, and which way to go.
+//! Travel distances through the arena: how far it is to a target for a body of some width, and which way to
+//! go.
 //!
-//! A [`Map`] has the rooms of a layout, the doors between them and the ways from room to room; a [`Route`] is the
-//! cheapest sequence of straight legs through doors, good enough to cost plans.
+//! A [`Map`] has the rooms of a layout, the doors between them and the ways from room to room; a [`Route`] is
+//! the cheapest sequence of straight legs through doors, good enough to cost plans.
 //!
-//! A [`Field`] answers both for one target, one mover and a set of obstacles, from any point. The inner walls are
-//! segments on the two axes through the arena's centre, so shortest paths consist of straight legs between a few
-//! points around the ends of walls (*corners*), in doors and around obstacles. The field holds the cost to go of
-//! these points (Dijkstra on the visibility graph); a query takes the cheapest visible one. Compared with a grid
-//! (fast marching), distances are exact up to the polygons that stand for circles, continuous inside a room, and
-//! a field takes tens of microseconds; the trade-off is a query that inspects several points instead of four
-//! cells.
+//! A [`Field`] answers both for one target, one mover and a set of obstacles, from any point. The inner walls
+//! are segments on the two axes through the arena's centre, so shortest paths consist of straight legs
+//! between a few points around the ends of walls (*corners*), in doors and around obstacles. The field holds
+//! the cost to go of these points (Dijkstra on the visibility graph); a query takes the cheapest visible one.
+//! Compared with a grid (fast marching), distances are exact up to the polygons that stand for circles,
+//! continuous inside a room, and a field takes tens of microseconds; the trade-off is a query that inspects
+//! several points instead of four cells.
 //!
 //! An object that is held moves with its holders as one rigid body, which has to turn to pass doors. An
 //! [`AssemblyField`] holds its cost to go on a grid of positions (0.5 u) and orientations (22.5°): a few
 //! milliseconds each, once for a grip and a target.
 //!
-//! [`Navigator`] computes fields on demand and caches them. All functions are pure: equal arguments give equal
-//! bits.
+//! [`Navigator`] computes fields on demand and caches them. All functions are pure: equal arguments give
+//! equal bits.
 //!
-//! Layout 4 has a door of 2.5 u on the left. A body that fits goes straight through it, a wider one has to go round or pay for it:
+//! Layout 4 has a door of 2.5 u on the left. A body that fits goes straight through it, a wider one has to go
+//! round or pay for it:
 //!
 //! ```
 //! use phase_model::{Layout, Vec2};
 //! use phase_navigation::{Field, Map, Mover, NavigationParameters, Target};
 //!
 //! let map = Map::new(Layout::new(4, None)?);
-//! let (above, below) = (Vec2::new(7.25, 16.0), Vec2::new(7.25, 6.0));
+//! let above = Vec2::new(7.25, 16.0);
+//! let below = Vec2::new(7.25, 6.0);
 //! let parameters = NavigationParameters { impassable: 10.0, ..NavigationParameters::DEFAULT };
 //! let field = |half_width| Field::new(&map, Target::Point(below), Mover { half_width }, &[], parameters);
 //!
@@ -68,7 +71,7 @@ pub use ways::Crossing;
 
 use phase_model::{RoomId, Vec2};
 
-/// Where to go.
+/// A place to go to.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub enum Target {
     /// A point (u).
@@ -82,7 +85,7 @@ pub enum Target {
     },
 }
 
-/// What has to fit through doors.
+/// A body that has to fit through doors.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Mover {
     /// Half the width of the body (u): 1.5 R for an agent, the radius of an object.

@@ -11,9 +11,9 @@ use phase_model::{
 
 /// Rooms, inner walls and openings of a layout, and the ways from room to room.
 ///
-/// The only home of what is known of doors: [`ways`](Self::ways) and [`way`](Self::way) say through which rooms
-/// a body gets from one to another, [`route`](Self::route) how long that is, and a [`Field`](crate::Field) says
-/// it around corners and obstacles.
+/// The only home of what is known of doors: [`ways`](Self::ways) and [`way`](Self::way) say through which
+/// rooms a body gets from one to another, [`route`](Self::route) how long that is, and a
+/// [`Field`](crate::Field) says it around corners and obstacles.
 ///
 /// ```
 /// use phase_model::{Layout, RoomId};
@@ -33,7 +33,7 @@ pub struct Map {
     ways: Ways,
 }
 
-/// How a mover passes a slot.
+/// The part of a slot that a mover may pass.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(crate) enum Passage {
     /// A wall fills the slot.
@@ -70,8 +70,8 @@ impl Map {
         &self.gaps
     }
 
-    /// The step from a room to one next to it; `None` where a full wall is in between, and for rooms that are not
-    /// next to each other.
+    /// The step from a room to one next to it; `None` where a full wall is in between, and for rooms that are
+    /// not next to each other.
     #[must_use]
     pub fn crossing(&self, from: RoomId, to: RoomId) -> Option<Crossing> {
         Crossing::out_of(self.layout, from).find(|step| step.to == to)
@@ -84,8 +84,8 @@ impl Map {
         &self.ways[from][to]
     }
 
-    /// The way from one room to another through the fewest openings, each at least this wide (u); empty from a
-    /// room to itself, `None` where there is no such way.
+    /// The way from one room to another through the fewest openings, each at least this wide (u); empty from
+    /// a room to itself, `None` where there is no such way.
     #[must_use]
     pub fn way(&self, from: RoomId, to: RoomId, width: f32) -> Option<&[Crossing]> {
         if from == to {
@@ -95,8 +95,8 @@ impl Map {
         self.ways(from, to).iter().find(is_wide).map(Vec::as_slice)
     }
 
-    /// The rooms other than the given one, grouped by whether they are connected without it; the smaller groups
-    /// first.
+    /// The rooms other than the given one, grouped by whether they are connected without it; the smaller
+    /// groups first.
     #[must_use]
     pub fn regions_around(&self, room: RoomId) -> Vec<Vec<RoomId>> {
         let mut regions: Vec<Vec<RoomId>> = Vec::new();
@@ -124,8 +124,9 @@ impl Map {
 
     /// The part of a slot that a mover's centre may cross.
     ///
-    /// An end of the opening keeps the mover off by its half width and [`DOOR_CLEARANCE`], except where there is no
-    /// wall: at the centre of an arena without walls, and at the boundary of a slot without a wall of its own.
+    /// An end of the opening keeps the mover off by its half width and [`DOOR_CLEARANCE`], except where there
+    /// is no wall: at the centre of an arena without walls, and at the boundary of a slot without a wall of
+    /// its own.
     pub(crate) fn passage(&self, slot: SlotId, mover: Mover) -> Passage {
         let Some((low, high)) = self.gaps.0[slot] else { return Passage::Wall };
         if !self.fits(slot, mover) {

@@ -1,8 +1,8 @@
 //! The numbers that shape ways; those of numerical accuracy are in `accuracy`.
 
-/// Price of a door that is narrower than the body that is to pass it (u), unless parameters say otherwise: more
-/// than any detour, so that such doors are a last resort, yet finite, so that an agent without a better way still
-/// tries.
+/// Price of a door that is narrower than the body that is to pass it (u), unless parameters say otherwise:
+/// more than any detour, so that such doors are a last resort, yet finite, so that an agent without a better
+/// way still tries.
 pub const IMPASSABLE_COST: f32 = 100.0;
 
 /// The numbers that shape a [`Field`](crate::Field): prices beside the length of a path, and how closely its
@@ -14,8 +14,8 @@ pub struct NavigationParameters {
     /// Price of each unit of length within an obstacle grown by the mover's half width (dimensionless); at
     /// least 0.
     pub obstruction: f32,
-    /// Price of each unit of length within the margin of a wall's end (dimensionless); at least 0. More than the
-    /// way around costs keeps paths off corners.
+    /// Price of each unit of length within the margin of a wall's end (dimensionless); at least 0. More than
+    /// the way around costs keeps paths off corners.
     pub corner: f32,
     /// Distance to a bend below which [`Field::direction`](crate::Field::direction) cuts it (u); above 0.
     pub bend_distance: f32,
@@ -39,8 +39,8 @@ impl Default for NavigationParameters {
 pub struct AssemblyParameters {
     /// Price of turning about the load (u/rad); at least 0.
     pub turning: f32,
-    /// Price of each unit of cost while the assembly crosses a wall or is outside the arena (dimensionless); at
-    /// least 0.
+    /// Price of each unit of cost while the assembly crosses a wall or is outside the arena (dimensionless);
+    /// at least 0.
     pub collision: f32,
     /// Overlap with walls that does not count as a collision (u); at least 0. Grips yield a little, and
     /// positions and orientations are rounded to a grid.

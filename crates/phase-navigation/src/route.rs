@@ -2,8 +2,8 @@
 //!
 //! Rooms are convex, so the shortest path between two points is a sequence of doors with a crossing point in
 //! each. The ways between rooms give the possible sequences; a few passes of coordinate descent place the
-//! crossings. A route takes less than a microsecond where a [`Field`](crate::Field) takes tens, and knows nothing
-//! of corners and obstacles.
+//! crossings. A route takes less than a microsecond where a [`Field`](crate::Field) takes tens, and knows
+//! nothing of corners and obstacles.
 
 use crate::{
     Gaps, Map,
@@ -66,8 +66,8 @@ impl Route {
 const NO_DOORS: [(SlotId, Vec2); MAX_DOORS] = [(SlotId::UP, Vec2::ZERO); MAX_DOORS];
 
 impl Map {
-    /// The cheapest route for a body of some width (u) through doors with these gaps; `None` if walls separate
-    /// the two points completely.
+    /// The cheapest route for a body of some width (u) through doors with these gaps; `None` if walls
+    /// separate the two points completely.
     ///
     /// A door that is narrower than the body costs `impassable` (u) on top of the length, for example
     /// [`IMPASSABLE_COST`](crate::IMPASSABLE_COST).

@@ -1,4 +1,4 @@
-//! What a straight leg costs: its length, and more where it cuts a corner or crosses an obstacle.
+//! The cost of a straight leg: its length, and more where it cuts a corner or crosses an obstacle.
 
 use crate::{
     Disc, Map, Mover, NavigationParameters, accuracy::PASSAGE_TOLERANCE, gaps::point_in, map::Passage,
@@ -76,20 +76,24 @@ impl Terrain {
 
     /// Cost of the straight leg between two points (u); `None` if a wall or a closed door is in between.
     pub(crate) fn leg(&self, a: Vec2, b: Vec2) -> Option<f32> {
-        let (p, q) = (a - arena::CENTRE, b - arena::CENTRE);
+        let p = a - arena::CENTRE;
+        let q = b - arena::CENTRE;
         for [positive, negative] in [[SlotId::UP, SlotId::DOWN], [SlotId::RIGHT, SlotId::LEFT]] {
             let along = SLOT_DIRECTIONS[positive];
             let across = along.perp();
-            let (side_p, side_q) = (across.dot(p), across.dot(q));
+            let side_p = across.dot(p);
+            let side_q = across.dot(q);
             if side_p * side_q > 0.0 {
                 continue;
             }
-            let (at_p, at_q) = (along.dot(p), along.dot(q));
+            let at_p = along.dot(p);
+            let at_q = along.dot(q);
             if side_p == 0.0 && side_q == 0.0 {
                 // Along the line itself: only within one opening.
                 for slot in [positive, negative] {
                     let sign = if slot == positive { 1.0 } else { -1.0 };
-                    let (s, t) = (sign * at_p, sign * at_q);
+                    let s = sign * at_p;
+                    let t = sign * at_q;
                     if s.max(t) > 0.0 && !self.is_open(slot, s.max(0.0), t.max(0.0)) {
                         return None;
                     }
@@ -112,7 +116,7 @@ impl Terrain {
         Some(a.distance(b) + self.corner_price * in_margins + self.obstruction_on(a, b))
     }
 
-    /// What the obstacles add to the length of a leg (u).
+    /// Length that obstacles add to the length of a leg (u).
     fn obstruction_on(&self, a: Vec2, b: Vec2) -> f32 {
         self.obstruction * self.obstacles.iter().map(|disc| disc.chord(a, b)).sum::<f32>()
     }

@@ -9,8 +9,8 @@ use crate::{
 };
 use phase_model::{SlotId, Vec2, arena, layout::SLOT_DIRECTIONS};
 
-/// 1 / cos(180° / [`RING`]): the straight legs between the points of a ring this much larger than the obstacle
-/// do not cross it.
+/// 1 / cos(180° / [`RING`]): the straight legs between the points of a ring this much larger than the
+/// obstacle do not cross it.
 const RING_RATIO: f32 = 1.019_591_1;
 /// cos and sin of 22.5°, the angle between neighbouring points of a ring.
 const RING_TURN: Vec2 = Vec2::new(0.923_879_5, 0.382_683_43);

@@ -34,11 +34,12 @@ fn field(base: u8, target: Vec2, assembly: &Assembly) -> AssemblyField {
     AssemblyField::new(&map, Target::Point(target), REACH, assembly, COSTS)
 }
 
-/// Layout 4 has a door of 2.5 u on the left, at x 6 to 8.5 and y 12. An agent of radius 0.8 is 2.4 u wide, and
-/// 3.2 u long with an object of the same radius.
+/// Layout 4 has a door of 2.5 u on the left, at x 6 to 8.5 and y 12. An agent of radius 0.8 is 2.4 u wide,
+/// and 3.2 u long with an object of the same radius.
 #[test]
 fn a_long_assembly_aligns_with_a_door_before_it_passes() {
-    let (from, to) = (Vec2::new(8.75, 16.0), Vec2::new(7.25, 6.0));
+    let from = Vec2::new(8.75, 16.0);
+    let to = Vec2::new(7.25, 6.0);
     let field = field(4, to, &held(0.8, 0.8, Side::Head));
     // With the carrier above its load.
     let aligned = field.distance(from, PI);
@@ -47,7 +48,8 @@ fn a_long_assembly_aligns_with_a_door_before_it_passes() {
         let misaligned = field.distance(from, PI + turn);
         assert!(misaligned > aligned + 1.0 && misaligned < aligned + 2.5, "{misaligned}, {aligned}");
         // It has turned when the load enters the door, one way or the other.
-        let (mut load, mut angle) = (from, PI + turn);
+        let mut load = from;
+        let mut angle = PI + turn;
         while load.y > 12.0 {
             let descent = field.descent(load, angle);
             assert!(descent != Descent { direction: Vec2::ZERO, turn: 0.0 });
@@ -64,7 +66,8 @@ fn a_long_assembly_aligns_with_a_door_before_it_passes() {
 /// An agent of radius 1.2 is 3.6 u wide, but 2.4 u from front to back.
 #[test]
 fn what_does_not_fit_one_way_fits_another() {
-    let (from, to) = (Vec2::new(7.25, 16.0), Vec2::new(7.25, 6.0));
+    let from = Vec2::new(7.25, 16.0);
+    let to = Vec2::new(7.25, 6.0);
     let in_front = field(4, to, &held(0.8, 1.2, Side::Head));
     let beside = field(4, to, &held(0.8, 1.2, Side::Right));
     // The load on the right of the carrier, the carrier above it: an angle of -90°.
@@ -166,11 +169,16 @@ proptest! {
 
     #[test]
     fn following_the_descent_arrives_without_passing_through_walls(
-        base in 0_u8..22, landmark in 0_usize..4, x in 8.0_f32..24.0, y in 4.0_f32..20.0, angle in -3.0_f32..3.0,
+        base in 0_u8..22,
+        landmark in 0_usize..4,
+        x in 8.0_f32..24.0,
+        y in 4.0_f32..20.0,
+        angle in -3.0_f32..3.0,
     ) {
         let target = arena::LANDMARKS[landmark];
         let field = field(base, target, &held(0.8, 0.8, Side::Head));
-        let (mut load, mut angle) = (Vec2::new(x, y), angle);
+        let mut load = Vec2::new(x, y);
+        let mut angle = angle;
         prop_assume!(!field.collides(load, angle));
         let start = field.distance(load, angle);
         prop_assume!(start < 60.0);

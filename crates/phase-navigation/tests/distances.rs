@@ -26,7 +26,8 @@ fn routes_and_fields_agree_on_what_is_closed_and_nearly_always_on_the_distance()
             let mut along = || random.random_range(half_width..arena::SIDE - half_width);
             arena::MIN + Vec2::new(along(), along())
         };
-        let (from, to) = (point(), point());
+        let from = point();
+        let to = point();
         let map = Map::new(layout);
         let route = map.route_cost(from, to, 2.0 * half_width, map.gaps(), IMPASSABLE_COST);
         let mover = Mover { half_width };

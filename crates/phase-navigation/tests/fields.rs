@@ -46,7 +46,8 @@ proptest! {
         let expected = oracle.distance(from, to);
         let distance = field(layout, to, half_width, &[]).distance(from);
         prop_assert!(distance >= from.distance(to) - 1e-3);
-        prop_assert!((distance - expected).abs() <= (0.03 * expected).max(0.3), "{distance}, exact {expected}");
+        let tolerance = (0.03 * expected).max(0.3);
+        prop_assert!((distance - expected).abs() <= tolerance, "{distance}, exact {expected}");
     }
 
     #[test]
@@ -68,9 +69,11 @@ proptest! {
         let next = from + STEP * Vec2::from_angle(angle);
         prop_assume!(room_of(from) == room_of(next));
         let field = field(layout, to, half_width, &[Disc { centre: at, radius: 1.0 }]);
-        let (here, there) = (field.distance(from), field.distance(next));
+        let here = field.distance(from);
+        let there = field.distance(next);
         // The chord of a circle grows from 0 as the root of the depth of the cut.
-        let (steepest, largest_radius) = (COSTS.obstruction + 2.0 * 3.0, 3.0_f32);
+        let steepest = COSTS.obstruction + 2.0 * 3.0;
+        let largest_radius = 3.0_f32;
         let bound = 2.0 * steepest * (2.0 * largest_radius * STEP).sqrt() + (1.0 + steepest) * STEP;
         prop_assert!((here - there).abs() <= bound, "{here}, {there}");
     }
@@ -82,7 +85,8 @@ proptest! {
         let field = field(layout, to, half_width, &[Disc { centre: at, radius: 1.0 }]);
         let walls = Map::new(layout).walls().to_vec();
         let distance = field.distance(from);
-        let (mut place, mut length) = (from, 0.0);
+        let mut place = from;
+        let mut length = 0.0;
         while place.distance(to) > 0.2 {
             let direction = field.direction(place);
             prop_assert!((direction.length() - 1.0).abs() < 1e-3);
@@ -167,7 +171,8 @@ fn every_point_of_every_layout_has_a_finite_distance() {
 /// Layout 4: full wall above the centre, a door of 2.5 u (x 6 to 8.5) on the left, the rest open.
 #[test]
 fn a_closed_door_costs_its_price_or_the_way_around() {
-    let (from, to) = (Vec2::new(7.25, 14.0), Vec2::new(7.25, 10.0));
+    let from = Vec2::new(7.25, 14.0);
+    let to = Vec2::new(7.25, 10.0);
     let narrow = field(layout(4), to, 1.2, &[]);
     assert!((narrow.distance(from) - 4.0).abs() < 0.05);
     assert_eq!(narrow.closed_doors(from), 0);
@@ -177,16 +182,18 @@ fn a_closed_door_costs_its_price_or_the_way_around() {
     assert!(wide.direction(from).distance(Vec2::NEG_Y) < 1e-3);
 }
 
-/// Layout 6: full wall above the centre, a wall from the centre half-way down; the left and right are open, and
-/// below the centre there is a door of 5 u.
+/// Layout 6: full wall above the centre, a wall from the centre half-way down; the left and right are open,
+/// and below the centre there is a door of 5 u.
 #[test]
 fn who_does_not_fit_one_door_takes_another() {
     let layout = layout(6);
     let map = Map::new(layout);
-    let (from, to) = (Vec2::new(12.0, 18.0), Vec2::new(20.0, 18.0));
+    let from = Vec2::new(12.0, 18.0);
+    let to = Vec2::new(20.0, 18.0);
     let fits = field(layout, to, 2.4, &[]);
     assert_eq!(fits.closed_doors(from), 0);
-    // Down on the left, around the end of the wall at (16, 7), up on the right; at least to (16, 4.5) and back.
+    // Down on the left, around the end of the wall at (16, 7), up on the right; at least to (16, 4.5) and
+    // back.
     let crossing = Vec2::new(16.0, 4.5);
     assert!(fits.distance(from) >= from.distance(crossing) + crossing.distance(to));
     assert!(map.fits(phase_model::SlotId::DOWN, Mover { half_width: 2.5 }));
@@ -197,7 +204,8 @@ fn who_does_not_fit_one_door_takes_another() {
 fn a_body_in_a_door_costs_and_is_passed_where_there_is_another_way() {
     // A door of 5 u on the left and one below, walls above (full).
     let layout = layout(7);
-    let (from, to) = (Vec2::new(8.5, 14.0), Vec2::new(8.5, 10.0));
+    let from = Vec2::new(8.5, 14.0);
+    let to = Vec2::new(8.5, 10.0);
     let free = field(layout, to, 1.0, &[]);
     let blocked = field(layout, to, 1.0, &[Disc { centre: Vec2::new(8.5, 12.0), radius: 1.0 }]);
     assert!((free.distance(from) - 4.0).abs() < 1e-3);
@@ -205,7 +213,8 @@ fn a_body_in_a_door_costs_and_is_passed_where_there_is_another_way() {
     assert!(blocked.distance(from) > 4.0 && blocked.distance(from) <= 4.0 + 16.0 + 1e-3);
     // In the middle of a room there is always a way around.
     let beside = Disc { centre: Vec2::new(11.0, 7.0), radius: 1.0 };
-    let (a, b) = (Vec2::new(8.0, 7.0), Vec2::new(14.0, 7.0));
+    let a = Vec2::new(8.0, 7.0);
+    let b = Vec2::new(14.0, 7.0);
     let distance = field(layout, b, 1.0, &[beside]).distance(a);
     assert!(distance > 6.5 && distance < 8.5, "{distance}");
 }
@@ -214,7 +223,8 @@ fn a_body_in_a_door_costs_and_is_passed_where_there_is_another_way() {
 fn the_cache_does_not_change_answers() {
     let layout = layout(16);
     let mut navigator = Navigator::new(layout, COSTS);
-    let (mover, from) = (Mover { half_width: 1.2 }, Vec2::new(24.0, 4.0));
+    let mover = Mover { half_width: 1.2 };
+    let from = Vec2::new(24.0, 4.0);
     for round in 0..2 {
         for k in 0..100 {
             let target = Vec2::new(7.0 + 0.1 * k as f32, 19.0);

@@ -46,8 +46,10 @@ fn regions_are_what_is_left_without_a_room() {
         regions.iter_mut().for_each(|region| region.sort_unstable());
         regions
     };
-    let (top_left, top_right) = (RoomId::TOP_LEFT, RoomId::TOP_RIGHT);
-    let (bottom_left, bottom_right) = (RoomId::BOTTOM_LEFT, RoomId::BOTTOM_RIGHT);
+    let top_left = RoomId::TOP_LEFT;
+    let top_right = RoomId::TOP_RIGHT;
+    let bottom_left = RoomId::BOTTOM_LEFT;
+    let bottom_right = RoomId::BOTTOM_RIGHT;
     assert_eq!(of(16, bottom_right), [vec![top_right], vec![top_left, bottom_left]]);
     assert_eq!(of(16, bottom_left), [vec![top_left], vec![top_right, bottom_right]]);
     assert_eq!(of(16, top_left).len(), 1);

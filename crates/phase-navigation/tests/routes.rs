@@ -17,7 +17,8 @@ fn route(map: &Map, from: Vec2, to: Vec2, width: f32) -> Route {
 #[test]
 fn in_one_room_the_way_is_straight() {
     let map = narrow();
-    let (from, to) = (Vec2::new(8.0, 20.0), Vec2::new(14.0, 14.0));
+    let from = Vec2::new(8.0, 20.0);
+    let to = Vec2::new(14.0, 14.0);
     let route = route(&map, from, to, 2.4);
     assert!((route.length - from.distance(to)).abs() < 1e-4);
     assert_eq!(route.doors(), []);
@@ -26,7 +27,8 @@ fn in_one_room_the_way_is_straight() {
 #[test]
 fn a_narrow_door_is_crossed_in_its_middle() {
     let map = narrow();
-    let (from, to) = (Vec2::new(14.0, 14.0), Vec2::new(14.0, 10.0));
+    let from = Vec2::new(14.0, 14.0);
+    let to = Vec2::new(14.0, 10.0);
     let route = route(&map, from, to, 2.4);
     // The gap of 2.5 leaves a body of width 2.4 no choice: x = 7.25.
     let crossing = Vec2::new(7.25, 12.0);
@@ -37,7 +39,8 @@ fn a_narrow_door_is_crossed_in_its_middle() {
 #[test]
 fn who_does_not_fit_pays_for_it() {
     let map = narrow();
-    let (from, to) = (Vec2::new(7.0, 14.0), Vec2::new(7.0, 10.0));
+    let from = Vec2::new(7.0, 14.0);
+    let to = Vec2::new(7.0, 10.0);
     let route = route(&map, from, to, 3.6);
     assert_eq!(route.impassable, 1);
     assert!(route.cost > IMPASSABLE_COST);

@@ -1,4 +1,5 @@
-//! The way of an agent to a landmark in another room, as subgoals: the planner alone, without physics or search.
+//! The way of an agent to a landmark in another room, as subgoals: the planner alone, without physics or
+//! search.
 //!
 //! `cargo run --release --package phase-planner --example plan_alone`
 

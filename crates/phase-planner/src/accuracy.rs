@@ -5,5 +5,6 @@
 pub(crate) const COST_RESOLUTION: f32 = 256.0;
 /// Highest cost that A* distinguishes (u); NaN counts as 0.
 pub(crate) const HIGHEST_COST: f32 = 1e6;
-/// Length of a route relative to the straight line up to which it counts as straight: rounding of its crossings.
+/// Length of a route relative to the straight line up to which it counts as straight: rounding of its
+/// crossings.
 pub(crate) const STRAIGHT: f32 = 1.01;

@@ -2,9 +2,10 @@
 //!
 //! A hinderer, an agent that flees, and an agent that keeps something off a landmark have the same task: a
 //! condition that the other can make true is to become expensive for it. Every predicate that the agent can
-//! make true or false is a candidate. Its worth is the cost of the other's best plan (A*) afterwards, less the
-//! cost now, less the agent's own effort times [`PlannerParameters::effort`](crate::PlannerParameters::effort). Helping
-//! has the opposite sign; there the joint A* of [`Planner`](crate::Planner) finds the best sequence.
+//! make true or false is a candidate. Its worth is the cost of the other's best plan (A*) afterwards, less
+//! the cost now, less the agent's own effort times
+//! [`PlannerParameters::effort`](crate::PlannerParameters::effort). Helping has the opposite sign; there the
+//! joint A* of [`Planner`](crate::Planner) finds the best sequence.
 
 use crate::{
     plan::{self, Plan, is, not},
@@ -56,7 +57,7 @@ struct DoorAhead {
     slot: SlotId,
     /// A landmark of the room behind it.
     next: LandmarkId,
-    /// What it costs the other to reach the door (u).
+    /// Cost of the other's way to the door (u).
     distance: f32,
 }
 
@@ -87,7 +88,7 @@ impl<'a> Interference<'a> {
         new
     }
 
-    /// What is left to do when the other cannot make the condition true: to carry the object in hand to the
+    /// The remaining plan when the other cannot make the condition true: to carry the object in hand to the
     /// nearest place and to leave it there.
     fn finish(&self) -> Plan {
         let release = plan::release(self.problem, self.agent);
@@ -121,8 +122,8 @@ impl<'a> Interference<'a> {
         }
     }
 
-    /// What the condition costs the other from a symbolic state (u). Beyond the cost of the nearly impossible
-    /// there is nothing to gain.
+    /// Cost of the condition for the other from a symbolic state (u). Beyond the cost of the nearly
+    /// impossible there is nothing to gain.
     fn cost(&self, node: &Node, narrowed: Option<Gaps>) -> f32 {
         self.capped(search::solve(&self.others_task(narrowed), *node).as_ref(), node)
     }
@@ -229,8 +230,8 @@ impl<'a> Interference<'a> {
             holding.agents[self.agent] = location;
         }
         let held = self.candidate(self.cost(&holding, None) - self.now, fetch, Vec::new()).worth;
-        // The most effective place to carry it to. On the way there it is held, and who is too weak to carry it
-        // away holds it and pulls.
+        // The most effective place to carry it to. On the way there it is held, and who is too weak to carry
+        // it away holds it and pulls.
         let mut best: Option<Candidate> = None;
         let unwanted =
             self.condition.landmark().filter(|_| self.condition.subject() == Entity::Object(object));
@@ -241,7 +242,8 @@ impl<'a> Interference<'a> {
             after.holds[self.other] = after.holds[self.other].filter(|&held| held != object);
             let carry = task.carrying_cost(&holding, self.agent, object, place);
             let mut subgoals = fetching.clone();
-            let (from, to) = (problem.position(location), problem.position(place));
+            let from = problem.position(location);
+            let to = problem.position(place);
             let gaps = task.gaps(&holding, self.agent, Some(object));
             let width = problem.width(self.agent, Some(object));
             if let Some(route) = problem.route(from, to, width, &gaps) {
@@ -301,12 +303,14 @@ impl<'a> Interference<'a> {
                 }
                 _ => continue,
             };
-            let (from, to) = (problem.position(from), problem.position(to));
+            let from = problem.position(from);
+            let to = problem.position(to);
             let gaps = task.gaps(node, self.other, held);
             let Some(route) = problem.route(from, to, problem.width(self.other, held), &gaps) else {
                 continue;
             };
-            let (mut room, mut last) = (room_of(from), from);
+            let mut room = room_of(from);
+            let mut last = from;
             for &(slot, crossing) in route.doors() {
                 room = slot.beyond(room);
                 so_far += last.distance(crossing);
@@ -318,12 +322,13 @@ impl<'a> Interference<'a> {
         doors
     }
 
-    /// Not On(subject, landmark) by standing between the two and pushing; not Touch(self, other) where touching
-    /// is the condition. A body in the way costs the other a detour around both bodies, provided that it is
-    /// there first.
+    /// Not On(subject, landmark) by standing between the two and pushing; not Touch(self, other) where
+    /// touching is the condition. A body in the way costs the other a detour around both bodies, provided
+    /// that it is there first.
     fn contact(&self, candidates: &mut Vec<Candidate>) {
         let problem = self.problem;
-        let (me, other) = (Entity::Agent(self.agent), Entity::Agent(self.other));
+        let me = Entity::Agent(self.agent);
+        let other = Entity::Agent(self.other);
         let Some(landmark) = self.condition.landmark() else {
             // Leaving the room has to gain more than the distance at which the two touch.
             let apart = problem.physics.radius(me) + problem.physics.radius(other);
@@ -342,8 +347,8 @@ impl<'a> Interference<'a> {
         if problem.state.held_object(self.agent).is_some_and(|held| Entity::Object(held) == subject) {
             return;
         }
-        let (there, target) =
-            (problem.position(Location::Current(subject)), problem.position(Location::Landmark(landmark)));
+        let there = problem.position(Location::Current(subject));
+        let target = problem.position(Location::Landmark(landmark));
         let apart = problem.physics.radius(me) + problem.physics.radius(subject);
         let between = target + (there - target).clamp_length_max(apart);
         let own = self.way(self.agent, between);

@@ -16,7 +16,8 @@
 //!
 //! ```
 //! use phase_model::{
-//!     AgentBody, AgentId, Attitude, Body, BodySet, Goal, LandmarkId, Layout, PhysicsConfig, Sign, State, Vec2,
+//!     AgentBody, AgentId, Attitude, Body, BodySet, Goal, LandmarkId, Layout, PhysicsConfig, Sign, State,
+//!     Vec2,
 //! };
 //! use phase_planner::Planner;
 //!

@@ -16,12 +16,12 @@ use serde::{Deserialize, Serialize};
 pub struct PlannerParameters {
     /// Cost of grasping or releasing an object (u); at least 0.
     pub grasp: f32,
-    /// Price of a door that is too narrow and of a load that its holders are too weak to move (u), and the cost
-    /// from which a plan counts as infeasible. More than any feasible plan costs, yet finite, so that an agent
-    /// without a better plan still tries. By default [`IMPASSABLE_COST`], 100 u.
+    /// Price of a door that is too narrow and of a load that its holders are too weak to move (u), and the
+    /// cost from which a plan counts as infeasible. More than any feasible plan costs, yet finite, so that an
+    /// agent without a better plan still tries. By default [`IMPASSABLE_COST`], 100 u.
     pub impassable: f32,
-    /// Effort weight: cost of 1 u of travel for or against the other's goal, relative to 1 u that it spares or
-    /// costs the other; 0 to 1.
+    /// Effort weight: cost of 1 u of travel for or against the other's goal, relative to 1 u that it spares
+    /// or costs the other; 0 to 1.
     pub effort: f32,
     /// Clearance beside the other's path (u) within which an agent without a part in the other's plan gives
     /// way; at least 0.

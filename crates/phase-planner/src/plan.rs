@@ -10,7 +10,10 @@ use phase_model::{
 use phase_navigation::Route;
 use phase_predicates::is_true;
 
-/// An agent's plan from one possible state.
+/// An agent's plan from one possible state: its own subgoals in order, and the distance left for all agents.
+///
+/// [`value::candidates`](crate::value::candidates) compares the plans of all particles of a belief by both.
+/// An empty plan means that there is nothing to do; [`first`](Self::first) is then [`Subgoal::Stay`].
 #[derive(Clone, PartialEq, Debug)]
 pub struct Plan {
     /// The agent's own subgoals in order. Empty when there is nothing for it to do.
@@ -34,7 +37,8 @@ impl Plan {
 /// The plan of going to an entity in order to see it.
 pub(crate) fn inspect(problem: &PlanningProblem<'_>, agent: AgentId, entity: Entity) -> Plan {
     let me = Entity::Agent(agent);
-    let (from, to) = (problem.position(Location::Current(me)), problem.position(Location::Current(entity)));
+    let from = problem.position(Location::Current(me));
+    let to = problem.position(Location::Current(entity));
     let mut subgoals = Vec::new();
     let width = problem.width(agent, None);
     let route = problem.route(from, to, width, problem.map.gaps());
@@ -60,7 +64,8 @@ pub(crate) fn drop_satisfied(problem: &PlanningProblem<'_>, subgoals: &mut Vec<S
     subgoals.drain(..done);
 }
 
-/// The same, except that the last one remains: what the other would undo has to be maintained.
+/// Drops the leading subgoals that are satisfied already, except for the last subgoal: what the other would
+/// undo has to be maintained.
 pub(crate) fn drop_satisfied_but_last(problem: &PlanningProblem<'_>, subgoals: &mut Vec<Subgoal>) {
     let last = subgoals.last().copied();
     drop_satisfied(problem, subgoals);

@@ -18,6 +18,10 @@ use phase_navigation::Map;
 use phase_predicates::achieved;
 
 /// The high-level planner of one agent, with everything that does not change during an event.
+///
+/// [`plan`](Self::plan) is a function of the state alone: a planner keeps nothing between calls, uses no
+/// chance, and may be shared by threads. A call solves a few small A\* problems. Attitudes decide which: an
+/// own goal, the other's goal together with it, or a rise of the other's cost.
 #[derive(Clone, Debug)]
 pub struct Planner {
     physics: PhysicsConfig,
@@ -62,7 +66,8 @@ impl Planner {
         let problem = PlanningProblem::new(&self.physics, &self.map, state, self.parameters);
         let own = self.goals[self.agent];
         let other = self.goals[self.agent.other()];
-        // A goal is to become true or not to become true, by its sign and, for the other's goal, the attitude.
+        // A goal is to become true or not to become true, by its sign and, for the other's goal, the
+        // attitude.
         let (goal, is_wanted) = match self.attitude {
             Attitude::Neutral => (own, own.sign() == Sign::Positive),
             Attitude::Help => (other, other.sign() == Sign::Positive),
@@ -77,8 +82,8 @@ impl Planner {
         }
     }
 
-    /// Raises the other's cost of a condition. An agent that would stay, since the other cannot make the condition true,
-    /// has to observe that.
+    /// Raises the other's cost of a condition. An agent that would stay, since the other cannot make the
+    /// condition true, has to observe that.
     fn prevent(&self, problem: &PlanningProblem<'_>, condition: Goal, observed: BodySet) -> Plan {
         let plan = interference::plan(problem, self.agent, condition);
         let unseen = [condition.subject(), Entity::Agent(self.agent.other())];
@@ -115,8 +120,8 @@ impl Planner {
         }
     }
 
-    /// The agent's part of the cheapest joint plan for a goal of `owner`, whom the other agent helps. An agent
-    /// without a part yields. Of two agents with the same goal each considers itself the owner.
+    /// The agent's part of the cheapest joint plan for a goal of `owner`, whom the other agent helps. An
+    /// agent without a part yields. Of two agents with the same goal each considers itself the owner.
     fn cooperate(
         &self,
         problem: &PlanningProblem<'_>,
@@ -134,7 +139,8 @@ impl Planner {
         let unseen = [goal.subject(), Entity::Agent(self.agent.other())];
         match unseen.into_iter().find(|&entity| !observed.contains(entity)) {
             Some(entity) if plan.subgoals.is_empty() => {
-                // If the entity cannot be reached, the optimistic particles must not be cheaper than the path there.
+                // If the entity cannot be reached, the optimistic particles must not be cheaper than the path
+                // there.
                 let inspect = inspect(problem, self.agent, entity);
                 Plan { distance: plan.distance.max(inspect.distance), ..inspect }
             }
@@ -155,7 +161,8 @@ impl Planner {
         self.cooperate(problem, goal, self.agent.other(), observed)
     }
 
-    /// Makes a condition true that the other wants to be false, and maintains it, since the other would undo it.
+    /// Makes a condition true that the other wants to be false, and maintains it, since the other would undo
+    /// it.
     fn contend(&self, problem: &PlanningProblem<'_>, condition: Goal) -> Plan {
         let me = Entity::Agent(self.agent);
         let actors = only(self.agent);
@@ -169,10 +176,8 @@ impl Planner {
         let mut plan = search::solve(&task, Node::start(problem)).map_or_else(
             || {
                 // No operator moves the other; it has to be pushed.
-                let (from, to) = (
-                    problem.position(Location::Current(me)),
-                    problem.position(Location::Current(condition.subject())),
-                );
+                let from = problem.position(Location::Current(me));
+                let to = problem.position(Location::Current(condition.subject()));
                 let width = problem.width(self.agent, None);
                 let mut plan = release(problem, self.agent);
                 let gaps = problem.gaps(self.agent, BodySet::OBJECTS);
@@ -193,7 +198,7 @@ impl Planner {
         plan
     }
 
-    /// What to do once the goal holds: release whatever is held, otherwise nothing. An agent that believes an
+    /// The plan once the goal holds: release whatever is held, otherwise nothing. An agent that believes an
     /// object to be in its goal position without observing it goes to verify that. `None` while the goal does
     /// not hold.
     fn finish(&self, problem: &PlanningProblem<'_>, goal: Goal, observed: BodySet) -> Option<Plan> {

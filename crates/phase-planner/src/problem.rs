@@ -11,7 +11,7 @@ use phase_navigation::{Gaps, Map, Route};
 /// A location that a plan can refer to: where an entity is now, or a landmark's centre.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 pub enum Location {
-    /// Where an entity is in the physical state that the plan starts from.
+    /// The place of an entity in the physical state that the plan starts from.
     Current(Entity),
     /// A landmark's centre.
     Landmark(LandmarkId),
@@ -24,7 +24,10 @@ pub enum Location {
     },
 }
 
-/// Everything a plan from one physical state needs to know.
+/// A physical state as the high level sees it: named locations, widths of doors, forces and costs.
+///
+/// Everything that several searches from one state share is computed once, by [`new`](Self::new): above all
+/// the part of each door that objects leave passable, for every set of objects that may have been moved.
 #[derive(Clone, Copy, Debug)]
 pub struct PlanningProblem<'a> {
     /// Walls, bodies and forces.
@@ -38,7 +41,7 @@ pub struct PlanningProblem<'a> {
     /// The passable part of each door for each agent while a set of objects, the bits of the index, are still
     /// where they are now.
     gaps: [[Gaps; 1 << MAX_OBJECTS]; AGENT_COUNT],
-    /// Which objects block a door for some agent at their current positions.
+    /// For each object, whether it blocks a door for some agent at its current position.
     blockers: [bool; MAX_OBJECTS],
 }
 
@@ -96,7 +99,8 @@ impl<'a> PlanningProblem<'a> {
     }
 
     /// The cheapest route for a body of some width (u) through doors with these gaps, at the price
-    /// [`PlannerParameters::impassable`] of a door that is too narrow; `None` if walls separate the two points.
+    /// [`PlannerParameters::impassable`] of a door that is too narrow; `None` if walls separate the two
+    /// points.
     #[must_use]
     pub fn route(&self, from: Vec2, to: Vec2, width: f32, gaps: &Gaps) -> Option<Route> {
         self.map.route(from, to, width, gaps, self.parameters.impassable)

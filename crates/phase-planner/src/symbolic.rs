@@ -6,11 +6,11 @@ use phase_model::{AGENT_COUNT, AgentId, BodySet, Entity, LandmarkId, MAX_OBJECTS
 /// A symbolic state of the search: positions are locations.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub struct Node {
-    /// Where each agent is.
+    /// Location of each agent.
     pub agents: [Location; AGENT_COUNT],
-    /// Where each object is, and its holders, if any.
+    /// Location of each object, and of its holders, if any.
     pub objects: [Location; MAX_OBJECTS],
-    /// What each agent holds.
+    /// The object that each agent holds.
     pub holds: [Option<ObjectId>; AGENT_COUNT],
 }
 

@@ -33,16 +33,20 @@ impl Effort {
     }
 }
 
-/// A goal to be reached by some agents' actions.
+/// A goal to be reached by some agents' actions from a symbolic state: the problem that
+/// [`search::solve`](crate::search::solve) solves.
+///
+/// It differs from a [`PlanningProblem`], which is about a physical state, in whose actions count, what their
+/// travel costs, and whether two agents that hold an object pull together.
 #[derive(Clone, Copy, Debug)]
 pub struct PlanningTask<'a> {
     /// The planning problem.
     pub problem: &'a PlanningProblem<'a>,
     /// The goal; its sign is taken as positive.
     pub goal: Goal,
-    /// Which agents act.
+    /// Whether each agent acts.
     pub actors: [bool; AGENT_COUNT],
-    /// What each agent's travel costs.
+    /// Cost of each agent's travel.
     pub efforts: [Effort; AGENT_COUNT],
     /// Whether both agents pull in the same direction when both hold an object.
     pub cooperative: bool,
@@ -69,12 +73,12 @@ impl PlanningTask<'_> {
     /// A lower bound on the remaining cost (u): the straight distance that the subject has to move, at the
     /// lowest effort weight.
     ///
-    /// It is consistent. The subject moves by `Approach`, `Meet`, `Go`, `Carry` and `Pass` only, each of which
-    /// costs at least the lowest weight times the straight distance between its old and new location, since
-    /// no route is shorter, slowness is at least 1 and penalties are not negative. The exception is an agent
-    /// that holds an object from the start: it is still at arm's length, and carrying may be charged for the
-    /// object's path only. Such an agent is therefore taken to be at its own location or at the object's,
-    /// whichever is closer. Releasing the object removes the choice, so the bound only rises.
+    /// It is consistent. The subject moves by `Approach`, `Meet`, `Go`, `Carry` and `Pass` only, each of
+    /// which costs at least the lowest weight times the straight distance between its old and new location,
+    /// since no route is shorter, slowness is at least 1 and penalties are not negative. The exception is an
+    /// agent that holds an object from the start: it is still at arm's length, and carrying may be charged
+    /// for the object's path only. Such an agent is therefore taken to be at its own location or at the
+    /// object's, whichever is closer. Releasing the object removes the choice, so the bound only rises.
     #[must_use]
     pub fn heuristic(&self, node: &Node) -> f32 {
         let distance =

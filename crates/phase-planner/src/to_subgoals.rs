@@ -97,7 +97,8 @@ fn go(
 ) {
     let problem = task.problem;
     let from_spot = held.map_or(node.agents[agent], |object| node.objects[object]);
-    let (from, to) = (problem.position(from_spot), problem.position(location));
+    let from = problem.position(from_spot);
+    let to = problem.position(location);
     let mover = held.map_or(Entity::Agent(agent), Entity::Object);
     let width = problem.width(agent, held);
     let gaps = task.gaps(node, agent, held.or(heads_for));

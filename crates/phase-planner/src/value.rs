@@ -6,7 +6,7 @@ use phase_model::Subgoal;
 /// λ of the paper: weight of the cost against the share of particles.
 pub const LAMBDA: f64 = 0.05;
 
-/// A subgoal that is the best for some particles.
+/// A subgoal that is the first of the plans of some particles of a belief, with its value V.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Candidate {
     /// The subgoal h.
@@ -21,7 +21,17 @@ pub struct Candidate {
 ///
 /// V = (1/K) Σₖ 1(h = hₖ) − λ / (Σₖ 1(h = hₖ)) · Σₖ 1(h = hₖ) Ĉ(bₖ, s_g)
 ///
-/// (section "Hierarchical Planner"), with Ĉ in world units. Equal values keep the order of the subgoals.
+/// (section "Hierarchical Planner"), with Ĉ in world units and λ, [`LAMBDA`] in the paper, at least 0 (1/u).
+/// Equal values keep the order of the subgoals. Without plans there are no candidates.
+///
+/// ```
+/// use phase_planner::{Plan, value};
+///
+/// let plans = [Plan::STAY, Plan::STAY];
+/// let candidates = value::candidates(&plans.each_ref(), value::LAMBDA);
+/// assert_eq!(candidates[0].value, 1.0);
+/// assert_eq!(candidates[0].particles, [0, 1]);
+/// ```
 #[must_use]
 pub fn candidates(plans: &[&Plan], lambda: f64) -> Vec<Candidate> {
     let mut candidates: Vec<Candidate> = Vec::new();

@@ -36,8 +36,8 @@ fn blocks_doorway(problem: &PlanningProblem<'_>, agent: AgentId) -> bool {
     SlotId::ALL.into_iter().any(|slot| open.width(slot) >= width && gaps.width(slot) < width)
 }
 
-/// Whether the agent stands on the path of the other, or of the object that the other holds, to a landmark, so
-/// that the two bodies cannot pass each other. An agent behind the other does not.
+/// Whether the agent stands on the path of the other, or of the object that the other holds, to a landmark,
+/// so that the two bodies cannot pass each other. An agent behind the other does not.
 fn stands_on_path(problem: &PlanningProblem<'_>, agent: AgentId, landmark: LandmarkId) -> bool {
     let other = agent.other();
     let here = problem.state.position(Entity::Agent(agent));

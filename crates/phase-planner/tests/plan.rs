@@ -376,7 +376,8 @@ fn distance_is_what_is_left_to_travel() {
 /// The object that an agent heads for does not close the door that it lies behind.
 #[test]
 fn the_approached_object_is_no_obstacle() {
-    let (from, object) = (Vec2::new(7.25, 16.0), Vec2::new(7.25, 10.3));
+    let from = Vec2::new(7.25, 16.0);
+    let object = Vec2::new(7.25, 10.3);
     let setup = Setup {
         layout: layout(4, None),
         agents: [(Small, Mighty, from), (Small, Weak, Vec2::new(24.0, 8.0))],

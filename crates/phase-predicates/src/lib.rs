@@ -5,14 +5,16 @@
 //! [`Literal`](phase_model::Literal)s: predicates or their negations.
 //! ```
 //! use phase_model::{
-//!     AgentBody, AgentId, Body, Entity, Goal, LandmarkId, Literal, PhysicsConfig, PredicateTarget, Predicate, Sign, State, Vec2,
-//!     arena,
+//!     AgentBody, AgentId, Body, Entity, Goal, LandmarkId, Literal, PhysicsConfig, Predicate,
+//!     PredicateTarget, Sign, State, Vec2, arena,
 //! };
 //! use phase_predicates::{SymbolicState, achieved};
 //!
 //! let body = AgentBody { radius: 0.8, max_force: 450.0 };
-//! let physics = PhysicsConfig { walls: Vec::new(), agents: [body; 2], object_radii: [0.0; 2], object_count: 0 };
-//! let (agent, landmark) = (AgentId::ZERO, LandmarkId::BOTTOM_RIGHT);
+//! let physics =
+//!     PhysicsConfig { walls: Vec::new(), agents: [body; 2], object_radii: [0.0; 2], object_count: 0 };
+//! let agent = AgentId::ZERO;
+//! let landmark = LandmarkId::BOTTOM_RIGHT;
 //! let places = [arena::LANDMARKS[landmark], Vec2::new(8.0, 18.0), Vec2::ZERO, Vec2::ZERO];
 //! let state = State::new(places.map(|place| Body::at_rest(place, 0.0)));
 //!

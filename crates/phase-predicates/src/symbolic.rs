@@ -70,7 +70,8 @@ const fn bit(predicate: Predicate) -> usize {
         Predicate::Touch(agent, entity) => 32 + agent.index() * 4 + entity.index(),
         Predicate::Attach(agent, object) => 40 + agent.index() * 2 + object.index(),
         Predicate::Close(a, PredicateTarget::Entity(b)) => {
-            let (a, b) = (a.index(), b.index());
+            let a = a.index();
+            let b = b.index();
             44 + if a < b { a * 4 + b } else { b * 4 + a }
         }
     }

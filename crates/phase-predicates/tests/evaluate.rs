@@ -55,7 +55,8 @@ fn close() {
     for (distance, expected) in [(2.5, true), (3.89, true), (3.91, false)] {
         let mut positions = APART;
         positions[2] = positions[0] + Vec2::new(distance, 0.0);
-        let (agent, object) = (Entity::Agent(AgentId::ZERO), Entity::Object(ObjectId::ZERO));
+        let agent = Entity::Agent(AgentId::ZERO);
+        let object = Entity::Object(ObjectId::ZERO);
         for predicate in [
             Predicate::Close(agent, PredicateTarget::Entity(object)),
             Predicate::Close(object, PredicateTarget::Entity(agent)),

@@ -1,8 +1,8 @@
 //! Minimal pairs and triples: scenes that differ in one social variable.
 //!
-//! In all scenes of a [`Contrast`] layout, bodies, strengths, directions and the goal of one agent are the same. They
-//! differ in the [`Stance`] of the other agent alone, which is its goal and attitude. What a viewer sees differently can
-//! therefore be due to the stance only.
+//! In all scenes of a [`Contrast`] layout, bodies, strengths, directions and the goal of one agent are the
+//! same. They differ in the [`Stance`] of the other agent alone, which is its goal and attitude. What a
+//! viewer sees differently can therefore be due to the stance only.
 
 use crate::{
     SampleError, Variant, adversarial,
@@ -14,7 +14,7 @@ use phase_model::{AgentId, Attitude, EventKind, Goal, LandmarkId, Layout, Object
 use rand::{Rng, RngExt};
 use serde::{Deserialize, Serialize};
 
-/// What an agent wants with regard to the other.
+/// The stance of an agent towards the other.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Stance {
@@ -24,13 +24,13 @@ pub enum Stance {
     Hinder,
     /// Something that has nothing to do with it, α = 0: to be on another landmark.
     Indifferent,
-    /// The same for itself, α = 0: the two collaborate.
+    /// It wants the other's goal for itself, α = 0: the two collaborate.
     Same,
-    /// The same object on another landmark, α = 0: the two compete.
+    /// It wants the object of the other on another landmark, α = 0: the two compete.
     Rival,
 }
 
-/// What the goal of the agent is about that is the same in all scenes.
+/// The subject of the goal of the agent that does not change between the scenes.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum About {
@@ -40,12 +40,12 @@ pub enum About {
     Place,
 }
 
-/// Which scenes are requested.
+/// A request of scenes.
 #[derive(Clone, Copy, Debug)]
 pub struct ContrastRequest<'a> {
     /// The stances of the changed agent, one scene each.
     pub stances: &'a [Stance],
-    /// What the other's goal is about.
+    /// The subject of the other's goal.
     pub about: About,
     /// Index of the other's goal: landmark, then object.
     pub goal_index: usize,
@@ -102,8 +102,8 @@ impl Stance {
         }
     }
 
-    /// Whether it is possible where the other's goal is of this type: an agent that wants to be somewhere can be neither
-    /// joined nor outdone, and helping it takes special circumstances.
+    /// Whether it is possible where the other's goal is of this type: an agent that wants to be somewhere can
+    /// be neither joined nor outdone, and helping it takes special circumstances.
     #[must_use]
     pub const fn suits(self, about: About) -> bool {
         matches!((self, about), (_, About::Object) | (Self::Hinder | Self::Indifferent, About::Place))
@@ -124,8 +124,8 @@ impl Stance {
 }
 
 impl Contrast {
-    /// Draws the scenes. All bodies satisfy what each stance requires of them; which of the two agents is the changed one
-    /// is random.
+    /// Draws the scenes. All bodies satisfy what each stance requires of them; which of the two agents is the
+    /// changed one is random.
     ///
     /// # Errors
     /// [`SampleError`] if the draws are exhausted, for example because a stance does not suit the goal.
@@ -152,7 +152,8 @@ impl Contrast {
 /// One draw, with the changed agent as agent 0; `None` if a stance is impossible in it.
 fn propose(request: &ContrastRequest<'_>, random: &mut impl Rng) -> Option<Vec<Scene>> {
     let landmarks = LandmarkId::ALL;
-    let (landmark, round) = (request.goal_index % landmarks.len(), request.goal_index / landmarks.len());
+    let landmark = request.goal_index % landmarks.len();
+    let round = request.goal_index / landmarks.len();
     let goal = match request.about {
         About::Object => object_on(ObjectId::ALL[round % 2], landmarks[landmark]),
         About::Place => agent_on(AgentId::ONE, landmarks[landmark]),

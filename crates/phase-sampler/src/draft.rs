@@ -8,7 +8,7 @@ use phase_model::{
 use phase_navigation::Crossing;
 use rand::{Rng, RngExt};
 
-/// How far a body may start from its start point in each direction (u).
+/// Largest distance of a body at the start from its start point in each direction (u).
 const START_JITTER: f32 = 0.6;
 /// Width of the narrow doors (u).
 const NARROW_DOOR_WIDTH: f32 = 2.5;
@@ -17,7 +17,7 @@ pub const SELF_SUFFICIENT: [Strength; 3] = [Strength::Fair, Strength::Strong, St
 /// Sizes that do not fit through narrow doors.
 pub const LARGE_SIZES: [Size; 3] = [Size::Large, Size::Huge, Size::Medium];
 
-/// How many objects a scene has.
+/// The number of objects of a scene.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub enum Objects {
     /// Those that the goals are about, and in half of the scenes one more.
@@ -50,8 +50,8 @@ impl SceneDraft {
         (count == goal_objects.len()).then_some(Self { agents, goal_objects, first_goal_object })
     }
 
-    /// The scene. Distractor objects come first where the goals are about a later object; otherwise one is added
-    /// in half of the cases, or as many as are missing of two.
+    /// The scene. Distractor objects come first where the goals are about a later object; otherwise one is
+    /// added in half of the cases, or as many as are missing of two.
     pub fn into_scene(self, kind: EventKind, layout: Layout, count: Objects, random: &mut impl Rng) -> Scene {
         let stray = |random: &mut _| object(any_size(random), any_room(random), random);
         let first = self.first_goal_object;
@@ -119,13 +119,13 @@ pub fn agent(size: Size, strength: Strength, goal: Goal, room: RoomId, random: &
     AgentSpec { size, strength, goal, attitude: Attitude::Neutral, start: start_in(room, random) }
 }
 
-/// The same agent with the attitude of helping.
+/// This agent with the attitude of helping.
 #[must_use]
 pub const fn helping(agent: AgentSpec) -> AgentSpec {
     AgentSpec { attitude: Attitude::Help, ..agent }
 }
 
-/// The same agent with the attitude of hindering.
+/// This agent with the attitude of hindering.
 #[must_use]
 pub const fn hindering(agent: AgentSpec) -> AgentSpec {
     AgentSpec { attitude: Attitude::Hinder, ..agent }

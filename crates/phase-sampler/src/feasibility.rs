@@ -13,10 +13,12 @@ use phase_predicates::achieved;
 /// [`phase_navigation::IMPASSABLE_COST`].
 pub const INFEASIBLE_COST: f32 = 95.0;
 
-/// What reaching a goal costs these agents together (u of travel with penalties), from the scene's start.
+/// Cost of reaching a goal for these agents together (u of travel with penalties), from the scene's start.
 #[must_use]
 pub fn cost(scene: &Scene, goal: Goal, actors: [bool; AGENT_COUNT]) -> f32 {
-    let (physics, map, state) = (scene.physics(), Map::new(scene.layout), scene.initial_state());
+    let physics = scene.physics();
+    let map = Map::new(scene.layout);
+    let state = scene.initial_state();
     let problem = PlanningProblem::new(&physics, &map, &state, PlannerParameters::default());
     let task = PlanningTask {
         problem: &problem,

@@ -51,8 +51,8 @@ pub(crate) fn clear(layout: Layout, goals: [Goal; 2], random: &mut impl Rng) -> 
     SceneDraft::about(goals, [helper, helpee], vec![blocker])
 }
 
-/// Both want the same object on the same landmark. Equal strengths, as the published scripts draw them; two of
-/// the weakest cannot move anything together.
+/// Both want the same object on the same landmark. Equal strengths, as the published scripts draw them; two
+/// of the weakest cannot move anything together.
 pub(crate) fn carry(goals: [Goal; 2], random: &mut impl Rng) -> Option<SceneDraft> {
     let room = draft::other_room(&[goals[1].landmark()?.room()], random)?;
     let strength = choose(&SELF_SUFFICIENT, random);
@@ -60,8 +60,8 @@ pub(crate) fn carry(goals: [Goal; 2], random: &mut impl Rng) -> Option<SceneDraf
     SceneDraft::about(goals, agents, vec![object(any_size(random), room, random)])
 }
 
-/// The helpee is too big for the door behind which its object lies, and its landmark is in a third room: once the object is
-/// outside, the helpee can take it on.
+/// The helpee is too big for the door behind which its object lies, and its landmark is in a third room: once
+/// the object is outside, the helpee can take it on.
 pub(crate) fn passed_on(layout: Layout, goals: [Goal; 2], random: &mut impl Rng) -> Option<SceneDraft> {
     let target = goals[1].landmark()?.room();
     let outside = draft::other_room(&[target], random)?;

@@ -4,8 +4,9 @@
 //! a scene can show its label: help is needed, hindrance is possible. A [`Request`] names the [`Variant`] of
 //! a kind, the index of the pair of goals and the layouts that may be drawn.
 //!
-//! Key design decision: rejection sampling. A recipe for each variant proposes scenes, and common checks, some of
-//! them by the planner, reject infeasible ones. The cost is a few hundred proposals a scene, microseconds each.
+//! Key design decision: rejection sampling. A recipe for each variant proposes scenes, and common checks,
+//! some of them by the planner, reject infeasible ones. The cost is a few hundred proposals a scene,
+//! microseconds each.
 //!
 //! A scene in which one agent is too weak for the object that it wants moved, and the other helps:
 //!

@@ -8,20 +8,20 @@ use phase_model::{
 use rand::RngExt;
 use thiserror::Error;
 
-/// Why a scene cannot be sampled by name.
+/// The reason why a scene cannot be sampled by name.
 #[derive(Clone, PartialEq, Eq, Debug, Error)]
 #[non_exhaustive]
 pub enum NamedError {
     /// No kind has the name.
     #[error("kind must be one of {}, not {name:?}", EventKind::ALL.map(EventKind::name).join(", "))]
     Kind {
-        /// What was given.
+        /// The text that was given.
         name: String,
     },
     /// No variant of the kind has the name.
     #[error("variant must be one of {}, not {name:?}", names.join(", "))]
     Variant {
-        /// What was given.
+        /// The text that was given.
         name: String,
         /// The variants of the kind, or of all kinds.
         names: Vec<&'static str>,
@@ -31,7 +31,8 @@ pub enum NamedError {
     Sample(#[from] SampleError),
 }
 
-/// Draws a scene of a kind and a variant, of a kind, or of any of the six kinds; the same seed gives the same scene.
+/// Draws a scene of a kind and a variant, of a kind, or of any of the six kinds; the same seed gives the same
+/// scene.
 ///
 /// # Errors
 /// [`NamedError`].

@@ -13,7 +13,7 @@ use thiserror::Error;
 /// Maximum number of draws before a variant fails; in practice some dozens suffice.
 pub(crate) const MAX_DRAWS: usize = 20_000;
 
-/// Which scene is requested.
+/// A request of a scene.
 #[derive(Clone, Copy, Debug)]
 pub struct Request<'a> {
     /// The variant.
@@ -26,7 +26,11 @@ pub struct Request<'a> {
 
 /// No scene of the variant was found.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Error)]
-#[error("no {} scene ({}) was found in {MAX_DRAWS} draws; its layouts may not allow any", .0.kind().name(), .0.name())]
+#[error(
+    "no {} scene ({}) was found in {MAX_DRAWS} draws; its layouts may not allow any",
+    .0.kind().name(),
+    .0.name()
+)]
 pub struct SampleError(pub Variant);
 
 /// Draws a scene. No body overlaps another or a wall, no goal holds at the start, and the agents can do what
@@ -48,7 +52,8 @@ pub fn sample(request: &Request<'_>, random: &mut impl Rng) -> Result<Scene, Sam
     Err(SampleError(request.variant))
 }
 
-/// One draw of a scene with role 0 as agent 0, which may be unable to show its variant; `None` if there is no place for its bodies.
+/// One draw of a scene with role 0 as agent 0, which may be unable to show its variant; `None` if there is no
+/// place for its bodies.
 pub(crate) fn propose(request: &Request<'_>, count: Objects, random: &mut impl Rng) -> Option<Scene> {
     let Request { variant, goal_index, layouts } = *request;
     let layout = choose(layouts, random);
@@ -66,7 +71,8 @@ pub fn sample_variant(variant: Variant, random: &mut impl Rng) -> Result<Scene, 
     sample(&Request { variant, goal_index, layouts: &layouts }, random)
 }
 
-/// Draws a scene of a kind in any of the 90 layouts; one of the first edition's variants and goals are drawn as well.
+/// Draws a scene of a kind in any of the 90 layouts; one of the first edition's variants and goals are drawn
+/// as well.
 ///
 /// # Errors
 /// As [`sample`].
@@ -101,7 +107,7 @@ fn draft(variant: Variant, layout: Layout, goals: [Goal; 2], random: &mut impl R
     }
 }
 
-/// The same scene with the agents' numbers exchanged.
+/// A scene with the agents' numbers exchanged.
 pub(crate) fn exchanged(scene: &Scene) -> Scene {
     let [first, second] = scene.agents;
     let renamed = |agent: AgentSpec| AgentSpec { goal: renumbered(agent.goal), ..agent };

@@ -1,5 +1,5 @@
-//! What a scene must satisfy for a variant: it is valid, nothing is achieved yet, the agents can do what the kind
-//! requires of them, and bodies are where the variant needs them.
+//! The requirements of a variant on a scene: it is valid, nothing is achieved yet, the agents can do what the
+//! kind requires of them, and bodies are where the variant needs them.
 
 use crate::{
     Variant,
@@ -15,11 +15,13 @@ use phase_navigation::{IMPASSABLE_COST, Map};
 const MIN_COST_RATIO: f32 = 1.5;
 /// Limit of the cost of a goal that is to be reached early enough to be undone (u).
 const MAX_UNDONE_COST: f32 = 35.0;
-/// Maximum distance from an object of an agent that is to come to it while there is still something to be seen (u).
+/// Maximum distance from an object of an agent that is to come to it while there is still something to be
+/// seen (u).
 const MAX_ARRIVAL: f32 = 14.0;
 /// Maximum distance from its landmark of an object that is to be taken away from it (u).
 const MAX_BESIDE: f32 = 16.0;
-/// Maximum distance from its landmark of an object that is to be hidden: the nearer, the more the hinderer gains (u).
+/// Maximum distance from its landmark of an object that is to be hidden: the nearer, the more the hinderer
+/// gains (u).
 const MAX_HIDDEN: f32 = 13.0;
 /// Maximum distance from an object of both who are to carry it together (u).
 const MAX_SHARED: f32 = 8.0;
@@ -27,12 +29,12 @@ const MAX_SHARED: f32 = 8.0;
 const MAX_BY: f32 = 8.0;
 /// Maximum distance from an object's way to its landmark of an agent that is to take it over there (u).
 const MAX_ASIDE: f32 = 2.0;
-/// The hinderer is that much nearer to the object that it is to take first, or farther from the one that it is to take
-/// later, than the victim (u).
+/// The hinderer is that much nearer to the object that it is to take first, or farther from the one that it
+/// is to take later, than the victim (u).
 const MIN_HEAD_START: f32 = 4.0;
 
-/// The strengths that roles 0 and 1 may have. They cannot be seen, but decide who can do what. Beyond that they are the
-/// same for all variants, so that they do not reveal one.
+/// The strengths that roles 0 and 1 may have. They cannot be seen, but decide who can do what. Beyond that
+/// they are the same for all variants, so that they do not reveal one.
 pub(crate) const fn strengths(variant: Variant) -> [&'static [Strength]; 2] {
     const ALL: &[Strength] = &Strength::ALL;
     const ABLE: &[Strength] = &SELF_SUFFICIENT;
@@ -50,8 +52,8 @@ pub(crate) const fn strengths(variant: Variant) -> [&'static [Strength]; 2] {
     }
 }
 
-/// Whether the agents' strengths fit each other: one who takes an object from another is the stronger, and so is one who
-/// takes it over from a helper.
+/// Whether the agents' strengths fit each other: one who takes an object from another is the stronger, and so
+/// is one who takes it over from a helper.
 fn are_matched(variant: Variant, scene: &Scene) -> bool {
     let [first, second] = scene.agents.map(|agent| agent.strength);
     match variant {
@@ -61,8 +63,8 @@ fn are_matched(variant: Variant, scene: &Scene) -> bool {
     }
 }
 
-/// Whether a scene, in which role 0 is agent 0, can show its variant. The first edition's variants have further requirements
-/// on a shared stage.
+/// Whether a scene, in which role 0 is agent 0, can show its variant. The first edition's variants have
+/// further requirements on a shared stage.
 pub(crate) fn is_playable(variant: Variant, scene: &Scene, on_stage: bool) -> bool {
     // Cheap tests first.
     are_matched(variant, scene)
@@ -72,8 +74,9 @@ pub(crate) fn is_playable(variant: Variant, scene: &Scene, on_stage: bool) -> bo
         && is_feasible(variant, scene)
 }
 
-/// Whether a scene on a stage, in which role 0 is agent 0, can show its variant as far as its bodies' places tell. Costs a small part of
-/// [`is_playable`], which searches for plans, and rejects most scenes that it rejects.
+/// Whether a scene on a stage, in which role 0 is agent 0, can show its variant as far as its bodies' places
+/// tell. Costs a small part of [`is_playable`], which searches for plans, and rejects most scenes that it
+/// rejects.
 pub(crate) fn may_be_playable(variant: Variant, scene: &Scene) -> bool {
     is_placed(variant, scene) && is_unsolved(scene)
 }
@@ -90,7 +93,8 @@ fn is_unsolved(scene: &Scene) -> bool {
 fn is_feasible(variant: Variant, scene: &Scene) -> bool {
     let [first, second] = scene.goals();
     match scene.kind {
-        // It is the helper's body that obstructs, which the planner leaves out where the helper is not an actor.
+        // It is the helper's body that obstructs, which the planner leaves out where the helper is not an
+        // actor.
         EventKind::Helping if variant == Variant::MakeWay => feasibility::alone(scene, AgentId::ONE, second),
         EventKind::Helping => {
             let alone = feasibility::cost(scene, second, [false, true]);
@@ -123,8 +127,8 @@ fn can_interfere(scene: &Scene, goal: Goal) -> bool {
     }
 }
 
-/// Whether the bodies are where the variant needs them. Nothing is required of the first edition's variants beyond their
-/// drafts, except where they are cast on a stage that was drawn for another one.
+/// Whether the bodies are where the variant needs them. Nothing is required of the first edition's variants
+/// beyond their drafts, except where they are cast on a stage that was drawn for another one.
 fn is_placed(variant: Variant, scene: &Scene) -> bool {
     let [first, goal] = scene.goals();
     let [room, other_room] = [0, 1].map(|role: usize| room_of(scene.agents[role].start.position));
@@ -166,12 +170,15 @@ fn is_placed(variant: Variant, scene: &Scene) -> bool {
     }
 }
 
-/// Whether agent 1 cannot come to the object that it wants, but stands by the way on which agent 0 brings it. Elsewhere it has
-/// nothing to do until the object is there, or takes it itself.
+/// Whether agent 1 cannot come to the object that it wants, but stands by the way on which agent 0 brings it.
+/// Elsewhere it has nothing to do until the object is there, or takes it itself.
 fn is_handed_over_on_the_way(scene: &Scene, object: ObjectId, goal: Goal) -> bool {
-    let (physics, map, state) = (scene.physics(), Map::new(scene.layout), scene.initial_state());
+    let physics = scene.physics();
+    let map = Map::new(scene.layout);
+    let state = scene.initial_state();
     let Some(landmark) = goal.landmark() else { return false };
-    let (from, to) = (state.position(Entity::Object(object)), phase_model::arena::LANDMARKS[landmark]);
+    let from = state.position(Entity::Object(object));
+    let to = phase_model::arena::LANDMARKS[landmark];
     let [helper, helpee] = [0, 1].map(|role: usize| physics.agents[role].width());
     let waits = scene.agents[1].start.position;
     if map.route_cost(waits, from, helpee, map.gaps(), IMPASSABLE_COST) < IMPASSABLE_COST {
@@ -190,7 +197,8 @@ fn crosses(scene: &Scene, rooms: [RoomId; 2]) -> bool {
 
 /// Whether agent 0 stands in a door of agent 1's cheapest way, which agent 1 then does not fit through.
 fn obstructs(scene: &Scene, goal: Goal) -> bool {
-    let (physics, map) = (scene.physics(), Map::new(scene.layout));
+    let physics = scene.physics();
+    let map = Map::new(scene.layout);
     let [blocker, blocked] = scene.agents.map(|agent| agent.start.position);
     let width = physics.agents[1].width();
     let Some(landmark) = goal.landmark() else { return false };

@@ -1,8 +1,10 @@
-//! Bodies without roles: what can be seen of a scene before anything moves, shared by events of several kinds.
+//! Bodies without roles: what can be seen of a scene before anything moves, shared by events of several
+//! kinds.
 //!
-//! If each kind of event drew its own bodies, sizes and places would reveal the kind. A [`Stage`] is therefore drawn
-//! once for several [`Part`]s, one event each, such that all of them can be played on it. Who plays which role, the
-//! strengths, which cannot be seen, and where the agents look are drawn anew for each event.
+//! If each kind of event drew its own bodies, sizes and places would reveal the kind. A [`Stage`] is
+//! therefore drawn once for several [`Part`]s, one event each, such that all of them can be played on it. Who
+//! plays which role, the strengths, which cannot be seen, and where the agents look are drawn anew for each
+//! event.
 
 use crate::{
     Request, SampleError, Variant,
@@ -33,7 +35,7 @@ pub struct Part {
     pub goal_index: usize,
 }
 
-/// Which goals a part may have.
+/// The goals that a part may have.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 enum Goals {
     /// Those of its index.
@@ -51,22 +53,25 @@ impl Part {
     }
 }
 
-/// The assignments of roles to the agents' bodies and of numbers to the objects' bodies: whether either is swapped.
+/// The assignments of roles to the agents' bodies and of numbers to the objects' bodies: whether either is
+/// swapped.
 const WAYS: [(bool, bool); 4] = [(false, false), (false, true), (true, false), (true, true)];
 /// Draws of strengths for each assignment of roles.
 const STRENGTH_DRAWS: usize = 6;
-/// Casts of one part, with its own goals and with any, before a scene is given up; a stage on which the part was cast once is likely to allow it again.
+/// Casts of one part, with its own goals and with any, before a scene is given up; a stage on which the part
+/// was cast once is likely to allow it again.
 const MAX_CASTS: usize = 200;
-/// Maximum number of draws of a stage, with the parts' own goals and with any: thousands are needed if several variants have to be
-/// possible at once with goals that are given. In PHASE-500, one block in fifty needs others.
+/// Maximum number of draws of a stage, with the parts' own goals and with any: thousands are needed if
+/// several variants have to be possible at once with goals that are given. In PHASE-500, one block in fifty
+/// needs others.
 const MAX_STAGE_DRAWS: usize = 10 * MAX_DRAWS;
 /// Draws of a stage in one layout before another layout is drawn.
 const DRAWS_PER_LAYOUT: usize = 200;
 
 impl Stage {
-    /// Draws a stage on which every part can be played with its own goals. The first part proposes the bodies, and all accept or
-    /// reject them. Layouts are tried in the order given, so that a caller can use all of them equally often. If no draw allows
-    /// all goals, one is drawn that allows all variants.
+    /// Draws a stage on which every part can be played with its own goals. The first part proposes the
+    /// bodies, and all accept or reject them. Layouts are tried in the order given, so that a caller can use
+    /// all of them equally often. If no draw allows all goals, one is drawn that allows all variants.
     ///
     /// # Errors
     /// [`SampleError`] if the draws are exhausted, for example because no layout fits a variant.
@@ -102,9 +107,9 @@ impl Stage {
         }
     }
 
-    /// A scene of this part on the stage: who plays which role, which object has which number, strengths and directions
-    /// are drawn. Where the part's goals cannot be pursued on the stage, the next ones are tried. `None` if the variant
-    /// cannot be played at all.
+    /// A scene of this part on the stage: who plays which role, which object has which number, strengths and
+    /// directions are drawn. Where the part's goals cannot be pursued on the stage, the next ones are tried.
+    /// `None` if the variant cannot be played at all.
     pub fn cast(&self, part: Part, random: &mut impl Rng) -> Option<Scene> {
         self.cast_with(Goals::Any, part, random)
     }
@@ -136,7 +141,8 @@ impl Stage {
         None
     }
 
-    /// A scene of this part on the stage, as [`cast`](Self::cast), which is repeated where it fails, first with the part's own goals.
+    /// A scene of this part on the stage, as [`cast`](Self::cast), which is repeated where it fails, first
+    /// with the part's own goals.
     ///
     /// # Errors
     /// [`SampleError`] if the draws are exhausted.
@@ -172,7 +178,8 @@ impl Stage {
         if matches!(variant, Variant::Hide | Variant::HandOver)
             && let Some(object) = object_of(goals[1]).and_then(|object| objects.get(object.index()))
         {
-            // One who has to look for the object first seldom comes before the other, or in time to hand it over.
+            // One who has to look for the object first seldom comes before the other, or in time to hand it
+            // over.
             let towards = object.start.position - agents[0].start.position;
             agents[0].start.angle = heading(towards);
         }

@@ -4,8 +4,8 @@ use crate::draft::{agent_on, object_on};
 use phase_model::{AgentId, Attitude, EventKind, Goal, LandmarkId, ObjectId, Sign};
 use serde::{Deserialize, Serialize};
 
-/// How a kind of event comes about. The social agent, or the one that chases, is role 0 in what follows; which
-/// agent plays it is drawn with the scene.
+/// A way in which a kind of event comes about. The social agent, or the one that chases, is role 0 in what
+/// follows; which agent plays it is drawn with the scene.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Variant {
@@ -152,7 +152,8 @@ impl Variant {
         }
     }
 
-    /// Whether it belongs to the first edition, whose scenes are drawn without regard to what else may happen in them.
+    /// Whether it belongs to the first edition, whose scenes are drawn without regard to what else may happen
+    /// in them.
     #[must_use]
     pub(crate) const fn is_first_edition(self) -> bool {
         matches!(

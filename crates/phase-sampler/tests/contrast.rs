@@ -31,7 +31,8 @@ fn only_the_stance_of_one_agent_differs() {
     for (stances, about) in cases {
         for goal_index in 0..8 {
             let contrast = sample(stances, about, goal_index, &layouts, goal_index as u64).unwrap();
-            let (it, other) = (contrast.changed, contrast.changed.other());
+            let it = contrast.changed;
+            let other = contrast.changed.other();
             changed.insert(it);
             assert_eq!(contrast.scenes.len(), stances.len());
             let first: &Scene = &contrast.scenes[0];

@@ -39,7 +39,11 @@ proptest! {
 
     /// Nothing overlaps, nothing is solved, and labels are those of the variant, whatever the seed.
     #[test]
-    fn scenes_keep_the_promises_of_their_variant(seed: u64, which in 0..Variant::ALL.len(), goal_index in 0_usize..48) {
+    fn scenes_keep_the_promises_of_their_variant(
+        seed: u64,
+        which in 0..Variant::ALL.len(),
+        goal_index in 0_usize..48,
+    ) {
         let variant = Variant::ALL[which];
         let layouts = all_layouts();
         let request = Request { variant, goal_index, layouts: &layouts };
@@ -49,7 +53,8 @@ proptest! {
         prop_assert_eq!(scene.check_kind(), Ok(()));
         prop_assert_eq!(scene.warnings(), []);
         prop_assert!(layouts.contains(&scene.layout));
-        let (physics, state) = (scene.physics(), scene.initial_state());
+        let physics = scene.physics();
+        let state = scene.initial_state();
         for goal in scene.goals() {
             let goal_objects = if goal.sign() == Sign::Positive { goal } else { goal.negated() };
             prop_assert!(!achieved(&physics, &state, goal_objects), "starts solved");
@@ -59,7 +64,8 @@ proptest! {
         let mut attitudes = scene.attitudes();
         attitudes.sort_by_key(|attitude| *attitude == Attitude::Neutral);
         prop_assert_eq!(attitudes, [attitude, Attitude::Neutral]);
-        let [mut goal_objects, mut found] = [variant.goals(goal_index), scene.goals()].map(|goals| goals.map(anonymous));
+        let [mut goal_objects, mut found] =
+            [variant.goals(goal_index), scene.goals()].map(|goals| goals.map(anonymous));
         goal_objects.sort_unstable();
         found.sort_unstable();
         prop_assert_eq!(goal_objects, found);
@@ -69,8 +75,10 @@ proptest! {
 #[test]
 fn all_values_of_every_variable_occur() {
     let layouts = all_layouts();
-    let (mut used, mut sizes, mut strengths, mut objects) =
-        (BTreeSet::new(), BTreeSet::new(), BTreeSet::new(), BTreeSet::new());
+    let mut used = BTreeSet::new();
+    let mut sizes = BTreeSet::new();
+    let mut strengths = BTreeSet::new();
+    let mut objects = BTreeSet::new();
     let mut social = [0; 2];
     for variant in Variant::ALL {
         for index in 0..60 {

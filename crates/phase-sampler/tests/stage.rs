@@ -46,7 +46,8 @@ fn every_part_is_played_by_the_same_bodies() {
     }
 }
 
-/// Where an object is handed over, the way past the agent that waits for it is hardly a detour, and that agent has no way to the object.
+/// If an object is handed over, the way past the agent that waits for it is hardly a detour, and that agent
+/// has no way to the object.
 #[test]
 fn objects_are_handed_over_on_their_way() {
     let mut layouts: Vec<Layout> = Layout::all_used().collect();
@@ -64,7 +65,9 @@ fn objects_are_handed_over_on_their_way() {
         };
         let [from, past] =
             [Entity::Object(object), Entity::Agent(helpee)].map(|it| scene.initial_state().position(it));
-        let (map, physics, to) = (Map::new(scene.layout), scene.physics(), arena::LANDMARKS[landmark]);
+        let map = Map::new(scene.layout);
+        let physics = scene.physics();
+        let to = arena::LANDMARKS[landmark];
         let way = |from, to, width| map.route_cost(from, to, width, map.gaps(), IMPASSABLE_COST);
         assert!(way(past, from, physics.agents[helpee].width()) >= IMPASSABLE_COST, "{k}");
         let width = physics.agents[helpee.other()].width().max(2.0 * physics.object_radii[object.index()]);
@@ -74,7 +77,8 @@ fn objects_are_handed_over_on_their_way() {
     }
 }
 
-/// Otherwise the goals of a dataset would not be those of its composition, and would tell of the bodies' places.
+/// Otherwise the goals of a dataset would not be those of its composition, and would tell of the bodies'
+/// places.
 #[test]
 fn nearly_every_part_has_its_own_goals() {
     let blocks = [

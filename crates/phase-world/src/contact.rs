@@ -53,8 +53,8 @@ impl ContactRules {
     /// Ends the tolerance of released pairs once one of them has left its place.
     pub(crate) fn restore_clear(&mut self, engine: &PhysicsWorld, dynamic_bodies: &[DynamicBody]) {
         for dynamic_body in dynamic_bodies {
-            let (this, centre) =
-                (dynamic_body.entity.index(), engine.bodies[dynamic_body.body].center_of_mass());
+            let this = dynamic_body.entity.index();
+            let centre = engine.bodies[dynamic_body.body].center_of_mass();
             for other in 0..MAX_ENTITIES {
                 if self.released[this][other].is_some_and(|place| !place.contains_local_point(centre)) {
                     self.released[this][other] = None;

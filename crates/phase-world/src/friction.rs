@@ -1,11 +1,11 @@
 //! Ground friction: force-limited motors between each body's origin and the ground.
 //!
-//! The ground resists with at most 100 N at a body's origin, against the direction in which the origin slides.
-//! rapier's motors limit the force along each axis separately. So a sliding body gets one motor, aligned with
-//! the impulse that would stop its origin, and a body that does not slide is held by a second one,
-//! perpendicular to the first. For a free body the direction is known before the substep, from its velocity
-//! and its push. With contacts and welds it is only known afterwards; [`FrictionDirection::after`] then
-//! determines whether the substep has to be repeated with a better direction.
+//! The ground resists with at most 100 N at a body's origin, against the direction in which the origin
+//! slides. rapier's motors limit the force along each axis separately. So a sliding body gets one motor,
+//! aligned with the impulse that would stop its origin, and a body that does not slide is held by a second
+//! one, perpendicular to the first. For a free body the direction is known before the substep, from its
+//! velocity and its push. With contacts and welds it is only known afterwards; [`FrictionDirection::after`]
+//! then determines whether the substep has to be repeated with a better direction.
 
 use phase_model::{Vec2, arena::SUBSTEP_SECONDS, physics::GROUND_FRICTION};
 use rapier2d::prelude::*;
@@ -34,7 +34,7 @@ pub(crate) fn insert(
     engine.insert_impulse_joint(ground, body, joint.build())
 }
 
-/// How a body's friction is directed in one substep.
+/// Direction of a body's friction in one substep.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(crate) struct FrictionDirection {
     /// Unit vector of the main motor, or zero for no friction at all.

@@ -42,7 +42,8 @@ pub(crate) struct Impacts<'a> {
 
 /// All walls of a scene: the four sides of the arena and the inner walls.
 pub(crate) fn walls(physics: &PhysicsConfig) -> Vec<Segment> {
-    let (min, max) = (arena::MIN, arena::MAX);
+    let min = arena::MIN;
+    let max = arena::MAX;
     let corners = [min, Vec2::new(max.x, min.y), max, Vec2::new(min.x, max.y)];
     let sides = [0, 1, 2, 3].map(|k| Segment { a: corners[k], b: corners[(k + 1) % 4] });
     let inner = physics.walls.iter().filter(|wall| wall.a.is_finite() && wall.b.is_finite());
@@ -94,7 +95,7 @@ impl<'a> Impacts<'a> {
         }
     }
 
-    /// When a moving shape first reaches a wall, as a share of its path.
+    /// Time at which a moving shape first reaches a wall, as a share of its path.
     fn first(self, shape: &dyn Shape, sweep: &Sweep) -> Option<f32> {
         let [start, end] = [0.0, 1.0].map(|share| shape.compute_aabb(&sweep.transform_at(share)));
         let near = start.merged(&end).loosened(2.0 * IMPACT_DISTANCE);
@@ -152,7 +153,7 @@ impl<'a> Impacts<'a> {
     }
 }
 
-/// When a moving shape reaches a wall, if it does so before the share `latest` of its path.
+/// Time at which a moving shape reaches a wall, if it does so before the share `latest` of its path.
 fn time_of_impact(wall: &Segment, shape: &ToiProxy, sweep: &Sweep, latest: f32) -> SweepToiOutput {
     let ends = [wall.a, wall.b];
     let still = Sweep::constant(&Pose::IDENTITY, Vec2::ZERO);

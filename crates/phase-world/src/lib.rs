@@ -1,16 +1,17 @@
 //! The reference PHASE environment: a scene simulated by rapier2d, stepped by actions.
 //!
-//! [`World`] takes a [`PhysicsConfig`](phase_model::PhysicsConfig) and a [`State`](phase_model::State), advances by
-//! five substeps of 1/60 s per step under the two agents' actions, and reports the state after each with the
-//! grips and the contacts between bodies. [`WorldDynamics`] puts it behind the interface of planners.
-//! One agent pushes forward for a step of five substeps while the other rests:
+//! [`World`] takes a [`PhysicsConfig`](phase_model::PhysicsConfig) and a [`State`](phase_model::State),
+//! advances by five substeps of 1/60 s per step under the two agents' actions, and reports the state after
+//! each with the grips and the contacts between bodies. [`WorldDynamics`] puts it behind the interface of
+//! planners. One agent pushes forward for a step of five substeps while the other rests:
 //!
 //! ```
 //! use phase_model::{Action, AgentBody, AgentId, Body, Entity, PhysicsConfig, State, Vec2};
 //! use phase_world::World;
 //!
 //! let body = AgentBody { radius: 0.8, max_force: 450.0 };
-//! let physics = PhysicsConfig { walls: Vec::new(), agents: [body; 2], object_radii: [0.0; 2], object_count: 0 };
+//! let physics =
+//!     PhysicsConfig { walls: Vec::new(), agents: [body; 2], object_radii: [0.0; 2], object_count: 0 };
 //! let places = [Vec2::new(10.0, 6.0), Vec2::new(20.0, 16.0), Vec2::ZERO, Vec2::ZERO];
 //! let start = State::new(places.map(|place| Body::at_rest(place, 0.0))); // both face +y
 //! let mut world = World::new(&physics, &start);

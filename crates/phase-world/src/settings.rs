@@ -1,4 +1,4 @@
-//! How rapier's solver is set up.
+//! Settings of rapier's solver.
 
 use phase_model::arena::SUBSTEP_SECONDS;
 use rapier2d::prelude::{IntegrationParameters, PhysicsWorld, SpringCoefficients, Vector};
@@ -7,7 +7,7 @@ use rapier2d::prelude::{IntegrationParameters, PhysicsWorld, SpringCoefficients,
 pub(crate) const MAX_SPEED: f32 = 2.0 / SUBSTEP_SECONDS;
 /// Share of a penetration that is corrected within one substep: ten corrections by a fifth each.
 const CORRECTION: f32 = 0.893;
-/// The same after an impact on a wall.
+/// Share of a penetration that is corrected within one substep after an impact on a wall.
 const IMPACT_CORRECTION: f32 = 0.75;
 /// Maximum correction by which an impact separates a body from a wall (u).
 const MAX_IMPACT_SEPARATION: f32 = 0.05;

@@ -80,8 +80,8 @@ impl World {
         world
     }
 
-    /// The same world with another number of sweeps over all constraints in a substep, for measurements of what the usual
-    /// number costs in accuracy. Everything else uses the usual number.
+    /// This world with another number of sweeps over all constraints in a substep, for measurements of what
+    /// the usual number costs in accuracy. Everything else uses the usual number.
     #[must_use]
     pub fn with_solver_passes(mut self, passes: usize) -> Self {
         settings::set_passes(&mut self.engine.integration_parameters, passes);
@@ -97,7 +97,8 @@ impl World {
         for (index, dynamic_body) in self.dynamic_bodies.iter().enumerate() {
             state.bodies[index] = dynamic_body.state(&self.engine);
             for (other, earlier) in self.dynamic_bodies.iter().enumerate().take(index) {
-                let (a, b) = (Entity::ALL[index], Entity::ALL[other]);
+                let a = Entity::ALL[index];
+                let b = Entity::ALL[other];
                 if !state.touching(a, b) && contact::touching(&self.engine, dynamic_body, earlier) {
                     state.contacts.insert(a, b);
                 }
@@ -113,7 +114,8 @@ impl World {
         self.state()
     }
 
-    /// Advances by one step under both agents' actions: five substeps of 1/60 s. Returns the state after each.
+    /// Advances by one step under both agents' actions: five substeps of 1/60 s. Returns the state after
+    /// each.
     ///
     /// Attaching and detaching happen once, before the first substep; pushes and torques act in every
     /// substep, and `stop` sets the velocity to zero in every substep; the agents' angular velocities are

@@ -124,14 +124,14 @@ fn gradients() {
 }
 
 #[test]
-fn answers_by_heart() {
+fn recognisers_learn_a_few_labelled_events_by_heart() {
     let all_right = |_: &Metrics, best: &Metrics| best.scores == [1.0, 1.0];
     learns_by_heart(lstm, &labelled(), all_right);
     learns_by_heart(arg, &labelled(), all_right);
 }
 
 #[test]
-fn ways_by_heart() {
+fn forecasters_learn_a_few_trajectories_by_heart() {
     let events: Vec<Nodes> = (0..8).map(|number| Nodes::of(&event(number, 12, number % 3, 0.0))).collect();
     let near = |first: &Metrics, best: &Metrics| best.loss < 0.3 && best.loss < 0.2 * first.loss;
     learns_by_heart(social, &events, near);

@@ -7,11 +7,11 @@ use phase_model::{AgentId, Entity, Goal, ObjectId, Relation, Scene, State};
 
 /// A goal reached before this step was hardly pursued visibly (2 s of video).
 const MIN_STEPS_TO_GOAL: usize = 8;
-/// How much closer to its first target an agent must come for its goal to be visible (u).
+/// Least approach of an agent to its first target for its goal to be visible (u).
 const MIN_APPROACH: f32 = 2.0;
 
-/// Adversarial events may last to the maximum length; in all others both agents have released their objects and come
-/// to rest.
+/// Adversarial events may last to the maximum length; in all others both agents have released their objects
+/// and come to rest.
 pub(super) fn check_rest_at_end(scene: &Scene, track: &Track) -> Result<(), RejectionReason> {
     if scene.relation() == Relation::Adversarial {
         return Ok(());

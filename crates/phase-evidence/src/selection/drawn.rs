@@ -1,7 +1,7 @@
-//! What each kind of event requires where events end at a sampled step, before or after the outcome.
+//! Requirements of each kind of event where events end at a sampled step, before or after the outcome.
 //!
-//! Goals need not be reached: an agent is seen to pursue its goal and to come closer to it. Where the variant is about a
-//! manner of helping or hindering, that manner is seen.
+//! Goals need not be reached: an agent is seen to pursue its goal and to come closer to it. Where the variant
+//! is about a manner of helping or hindering, that manner is seen.
 
 use super::{
     CausalEffect, Counterfactual, RejectionReason,
@@ -12,13 +12,14 @@ use crate::{GoalOutcome, Manner, Track, contact, holding, manner, outcome, pursu
 use core::ops::Range;
 use phase_model::{AgentId, Entity, EventKind, Goal, ObjectId, Relation, Scene, Sign};
 
-/// How much closer to its goal an agent must come (u).
+/// Least approach of an agent to its goal (u).
 const MIN_PROGRESS: f32 = 3.0;
 /// Maximum share of an event in which nothing moves, in percent.
 const MAX_STILL_PERCENT: usize = 75;
 /// Maximum time for which every body may stay in its place before both agents are done (steps; 6 s).
 const MAX_STANDSTILL: usize = 24;
-/// A body that is nearer than this to where it was stays in its place (u): agents that push each other tremble.
+/// A body that is nearer than this to where it was stays in its place (u): agents that push each other
+/// tremble.
 const MAX_STAY: f32 = 0.3;
 /// Steps of which a chase has pursuit in the last part: the last fourth.
 const LASTING_PARTS: usize = 4;
@@ -48,8 +49,8 @@ pub(super) fn judge(
     Ok(counterfactual.map(|it| Counterfactual { cut: true, ..it }))
 }
 
-/// Something moves in enough of the steps, and nobody is stuck: for 6 s everything may stay in its place only if both are
-/// done, which adversaries never are.
+/// Something moves in enough of the steps, and nobody is stuck: for 6 s everything may stay in its place only
+/// if both are done, which adversaries never are.
 fn lively(scene: &Scene, track: &Track) -> Result<(), RejectionReason> {
     let still = (1..track.states.len()).filter(|&step| rest::is_still(track, step)).count();
     require(100 * still <= MAX_STILL_PERCENT * track.steps(), RejectionReason::Lifeless)?;
@@ -59,7 +60,8 @@ fn lively(scene: &Scene, track: &Track) -> Result<(), RejectionReason> {
     require(!windows.into_iter().any(stuck), RejectionReason::Lifeless)
 }
 
-/// Whether every event of at most so many steps that begins with this track is [lifeless](RejectionReason::Lifeless).
+/// Whether every event of at most so many steps that begins with this track is
+/// [lifeless](RejectionReason::Lifeless).
 pub(super) fn is_lifeless_however_it_goes_on(scene: &Scene, track: &Track, most_steps: usize) -> bool {
     let still = (1..track.states.len()).filter(|&step| rest::is_still(track, step)).count();
     let stuck =
@@ -68,8 +70,8 @@ pub(super) fn is_lifeless_however_it_goes_on(scene: &Scene, track: &Track, most_
         || (0..track.states.len().saturating_sub(MAX_STANDSTILL)).any(stuck)
 }
 
-/// Whether, however the event goes on, [`done_at`] is after a step: a goal does not hold then or later, or has not been reached
-/// by touching until then.
+/// Whether, however the event goes on, [`done_at`] is after a step: a goal does not hold then or later, or
+/// has not been reached by touching until then.
 fn is_done_after(scene: &Scene, track: &Track, step: usize) -> bool {
     scene.relation() == Relation::Adversarial
         || scene.goals().into_iter().any(|goal| match (goal, goal.sign()) {
@@ -81,8 +83,8 @@ fn is_done_after(scene: &Scene, track: &Track, step: usize) -> bool {
         })
 }
 
-/// The step at which the goals of both agents have been reached; never for adversaries, nor for goals to keep something
-/// from happening.
+/// The step at which the goals of both agents have been reached; never for adversaries, nor for goals to keep
+/// something from happening.
 fn done_at(scene: &Scene, track: &Track) -> Option<usize> {
     if scene.relation() == Relation::Adversarial {
         return None;
@@ -136,7 +138,8 @@ fn lasting_chase(track: &Track, chaser: AgentId) -> Result<(), RejectionReason> 
     kinds::chase(track, chaser)?;
     let from = track.steps() - track.steps() / LASTING_PARTS;
     let last = Track { physics: track.physics.clone(), states: track.states[from..].to_vec() };
-    let (after, away) = (Pursuit::of(&last, chaser), Pursuit::of(&last, chaser.other()));
+    let after = Pursuit::of(&last, chaser);
+    let away = Pursuit::of(&last, chaser.other());
     require(after.towards > 0, RejectionReason::NoPursuit)?;
     require(2 * away.moving >= last.steps(), RejectionReason::NoFlight)
 }

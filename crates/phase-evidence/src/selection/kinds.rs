@@ -1,4 +1,4 @@
-//! What each kind of event requires where events end once they are settled.
+//! Requirements of each kind of event where events end once they are settled.
 
 use super::{
     CausalEffect, Counterfactual, MIN_VISIBLE_STEPS, RejectionReason,
@@ -28,9 +28,9 @@ pub(super) fn judge(scene: &Scene, track: &Track) -> Result<Option<Counterfactua
     }
 }
 
-/// The helpee's goal is reached, and the helper has held an object. If the goal is about an object, the helpee pursued
-/// it visibly before the helper took it, and has held it as well; otherwise a viewer sees one agent move an object and
-/// the other stand idle.
+/// The helpee's goal is reached, and the helper has held an object. If the goal is about an object, the
+/// helpee pursued it visibly before the helper took it, and has held it as well; otherwise a viewer sees one
+/// agent move an object and the other stand idle.
 fn helping(scene: &Scene, track: &Track) -> Result<Counterfactual, RejectionReason> {
     let helper = manner::social_agent(scene);
     let helpee = helper.other();
@@ -117,7 +117,8 @@ fn independent(scene: &Scene, track: &Track) -> Result<(), RejectionReason> {
 /// One pursues the other for most of the time in which it moves, and the other stays away for a while and is
 /// not in its grasp for more than half of the event.
 pub(super) fn chase(track: &Track, chaser: AgentId) -> Result<(), RejectionReason> {
-    let (after, away) = (Pursuit::of(track, chaser), Pursuit::of(track, chaser.other()));
+    let after = Pursuit::of(track, chaser);
+    let away = Pursuit::of(track, chaser.other());
     require(
         after.moving >= MIN_PURSUIT_STEPS && 2 * after.towards >= after.moving,
         RejectionReason::NoPursuit,

@@ -16,11 +16,11 @@ use serde::{Deserialize, Serialize};
 
 /// Minimum duration for something to be seen (steps): three quarters of a second of video.
 pub const MIN_VISIBLE_STEPS: usize = 3;
-/// Steps at the end of an event over which nothing may move, where everything has to come to rest: a second of
-/// video.
+/// Steps at the end of an event over which nothing may move, where everything has to come to rest: a second
+/// of video.
 pub const FINAL_REST_STEPS: usize = 4;
 
-/// Why an event does not show its label.
+/// The reason why an event does not show its label.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum RejectionReason {
@@ -103,7 +103,7 @@ impl RejectionReason {
     }
 }
 
-/// What effect an agent is to have had on the other's goal.
+/// The effect that an agent is to have had on the other's goal.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum CausalEffect {
     /// Reached only thanks to it, or at least a tenth sooner.
@@ -122,8 +122,8 @@ pub struct Counterfactual {
     pub judged: AgentId,
     /// The required result.
     pub change: CausalEffect,
-    /// Whether the event may have been cut before the outcome; then it counts, too, how far the goal's subject still has
-    /// to go.
+    /// Whether the event may have been cut before the outcome; then it counts, too, how far the goal's
+    /// subject still has to go.
     pub cut: bool,
 }
 
@@ -159,7 +159,8 @@ pub fn with_neutral(scene: &Scene, agent: AgentId) -> Scene {
     scene
 }
 
-/// The agents of which [`check_event`] may name one as [`Counterfactual::idle`], whatever happens in the scene's event.
+/// The agents of which [`check_event`] may name one as [`Counterfactual::idle`], whatever happens in the
+/// scene's event.
 #[must_use]
 pub fn possibly_idle(scene: &Scene) -> Vec<AgentId> {
     match scene.kind {
@@ -171,10 +172,10 @@ pub fn possibly_idle(scene: &Scene) -> Vec<AgentId> {
     }
 }
 
-/// How much difference an agent must make to where the goal's subject is at the end (u).
+/// Least difference that an agent must make to the place of the goal's subject at the end (u).
 const MIN_DIFFERENCE: f32 = 2.0;
 
-/// When events end, and therefore what may be required of them.
+/// The rule by which events end, and therefore what may be required of them.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Ending {
     /// Once everything is settled; an adversarial event may end earlier.
@@ -210,8 +211,9 @@ pub fn check_event(
     }
 }
 
-/// What [`check_event`] will say of every event that begins with this track and has one of the allowed lengths, where that is
-/// certain already; `None` where it is not. The rest of such an event need not be simulated.
+/// The rejection that [`check_event`] will give of every event that begins with this track and has one of the
+/// allowed lengths, where that is certain already; `None` where it is not. The rest of such an event need not
+/// be simulated.
 #[must_use]
 pub fn certain_rejection(
     scene: &Scene,
@@ -224,7 +226,7 @@ pub fn certain_rejection(
     lost.then_some(RejectionReason::Lifeless)
 }
 
-/// How far the goal's subject is from the goal at the end (u); infinite for tracks without states.
+/// Distance of the goal's subject from the goal at the end (u); infinite for tracks without states.
 fn remaining(goal: Goal, track: &Track) -> f32 {
     let positive = if goal.sign() == Sign::Positive { goal } else { goal.negated() };
     track.states.last().map_or(f32::INFINITY, |state| positive.distance(state))

@@ -1,4 +1,4 @@
-//! When the rejection of an event is certain before its end.
+//! Rejections that are certain before the end of an event.
 
 use crate::{
     selection::{THING, TOUCH, event, facing, fetch, on_way, place, scene},
@@ -83,7 +83,7 @@ fn path() -> impl Strategy<Value = Vec<(f32, f32)>> {
 }
 
 proptest! {
-    /// What is certain after some steps is what the whole event is rejected for.
+    /// A reason that is certain after some steps is that of the whole event.
     #[test]
     fn what_is_certain_comes_true((kind, goals, first) in goals(), paths in [path(), path(), path()]) {
         let scene = scene(kind, goals, first);

@@ -1,4 +1,4 @@
-//! Which synthetic events that end at a sampled step show their label, and why the others do not.
+//! Synthetic events that end at a sampled step: those that show their label, and reasons why others do not.
 
 use crate::{
     selection::{STEPS, THING, event, facing, fetch, judged, on_way, place, scene},
@@ -29,7 +29,8 @@ fn help_may_be_cut_before_the_goal_is_reached() {
     let scene = scene(EventKind::Helping, [THING, THING], Attitude::Help);
     let counterfactual =
         Counterfactual { idle: AgentId::ZERO, judged: AgentId::ONE, change: CausalEffect::Helped, cut: true };
-    let (whole, cut) = (event(wanted), event(wanted).until(22));
+    let whole = event(wanted);
+    let cut = event(wanted).until(22);
     for track in [&whole, &cut] {
         assert_eq!(drawn(&scene, track, Some(Manner::Fetching)), Ok(Some(counterfactual)));
     }

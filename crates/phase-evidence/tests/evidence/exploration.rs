@@ -1,11 +1,12 @@
-//! Which region an agent explores first.
+//! The region that an agent explores first.
 
 use crate::support::{Move, track};
 use core::f32::consts::{FRAC_PI_2, PI};
 use phase_evidence::exploration::searched_first;
 use phase_model::{AgentId, RoomId};
 
-/// Agent 0 stands in the middle of room 2 and faces somewhere at each step; agent 1 is out of sight in room 0.
+/// Agent 0 stands in the middle of room 2 and faces somewhere at each step; agent 1 is out of sight in room
+/// 0.
 fn turning(angles: &[f32]) -> phase_evidence::Track {
     let one = |&angle: &f32| Move { agents: [(21.0, 7.0, angle), (7.5, 20.5, 0.0)], ..Move::default() };
     track(angles.iter().map(one))

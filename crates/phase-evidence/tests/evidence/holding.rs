@@ -1,4 +1,4 @@
-//! Which agent held what, and carrying together.
+//! Holding objects, and carrying together.
 
 use crate::support::{Move, track};
 use phase_evidence::holding::{HoldInterval, carried, carried_together, holds};

@@ -34,7 +34,8 @@ fn turning_on_the_spot_is_no_motion() {
     assert_eq!(MotionStatistics::of(&track(spin), AgentId::ZERO, 3).path, 0.0);
 }
 
-/// Agent 0 comes from below, facing up: its front is 1 u above its origin, the object's edge 1 u below (20, 10).
+/// Agent 0 comes from below, facing up: its front is 1 u above its origin, the object's edge 1 u below (20,
+/// 10).
 #[test]
 fn contact_is_counted_step_by_step_without_the_start() {
     let gaps = [0.5 * TOUCH_GAP, 1.0, 0.5 * TOUCH_GAP, 0.0, 1.5 * TOUCH_GAP];
@@ -68,7 +69,8 @@ fn contacts_that_outlines_do_not_show_are_not_counted() {
 
 #[test]
 fn a_longer_event_is_cut_to_the_shorter_one() {
-    let (long, short) = (walk(&[8.0, 8.5, 9.0, 12.0]), walk(&[8.0, 9.0]));
+    let long = walk(&[8.0, 8.5, 9.0, 12.0]);
+    let short = walk(&[8.0, 9.0]);
     assert_eq!((common_steps(&long, &short), common_steps(&short, &long)), (1, 1));
     let motion = MotionStatistics::of(&long, AgentId::ZERO, 1);
     assert!((motion.path - 0.5).abs() < 1e-5 && motion.speeds.len() == 1, "{motion:?}");

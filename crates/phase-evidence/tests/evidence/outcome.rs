@@ -1,4 +1,4 @@
-//! When a goal counts as reached.
+//! Steps at which a goal counts as reached.
 
 use crate::support::{Move, track};
 use phase_evidence::{GoalOutcome, contact::TOUCH_GAP};
@@ -17,7 +17,10 @@ fn trajectory(agent: &[f32], object: &[f32]) -> phase_evidence::Track {
 #[test]
 fn being_somewhere_counts_at_the_end() {
     // Landmark 3 is at (8.5, 4.5).
-    let (far, near, just, beyond) = (12.0, 8.5, 8.5 + 0.56, 8.5 + 0.57);
+    let far = 12.0;
+    let near = 8.5;
+    let just = 8.5 + 0.56;
+    let beyond = 8.5 + 0.57;
     let goal = |sign| Goal::AgentOnLandmark { agent: AgentId::ZERO, landmark: LandmarkId::BOTTOM_LEFT, sign };
     let cases: &[(&[f32], bool, Option<usize>)] = &[
         (&[far, near, near], true, Some(1)),
@@ -53,7 +56,10 @@ fn an_object_may_lie_farther_off_than_an_agent() {
 #[test]
 fn touching_counts_at_any_time_and_getting_away_at_the_end() {
     let goal = |sign| Goal::Touch { agent: AgentId::ZERO, other: AgentId::ONE, sign };
-    let (apart, touching, just, beyond) = (8.0, 13.0, 13.0 - 0.99 * TOUCH_GAP, 13.0 - 1.01 * TOUCH_GAP);
+    let apart = 8.0;
+    let touching = 13.0;
+    let just = 13.0 - 0.99 * TOUCH_GAP;
+    let beyond = 13.0 - 1.01 * TOUCH_GAP;
     let cases: &[(&[f32], Option<usize>, bool)] = &[
         (&[apart, touching, apart], Some(1), true),
         (&[apart, apart, touching], Some(2), false),

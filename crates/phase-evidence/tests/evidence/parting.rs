@@ -4,8 +4,8 @@ use crate::support::{Move, track};
 use phase_evidence::parting::Parting;
 use phase_model::{AgentId, Entity, Vec2};
 
-/// Agent 1 goes right by 1 u a step; from a step on, it goes up by some distance a step as well. The object follows it two
-/// steps later.
+/// Agent 1 goes right by 1 u a step; from a step on, it goes up by some distance a step as well. The object
+/// follows it two steps later.
 fn moves(steps: usize, from: usize, up: f32) -> Vec<Move> {
     let height = |t: usize, from: usize| t.saturating_sub(from) as f32 * up;
     (0..=steps)

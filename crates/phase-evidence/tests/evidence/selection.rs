@@ -1,4 +1,4 @@
-//! Which synthetic events show their label, and why the others do not.
+//! Synthetic events that show their label, and reasons why others do not.
 
 use crate::support::{Move, track};
 use core::ops::RangeInclusive;
@@ -11,7 +11,7 @@ use phase_model::{
     Sign, Size, Strength,
 };
 
-/// What [`check_event`] says; the agent that it wants to be idle is one that could be told before.
+/// The judgement of [`check_event`]; the agent that it wants to be idle is one that could be told before.
 pub(super) fn judged(
     scene: &Scene,
     track: &Track,
@@ -160,7 +160,8 @@ fn an_effect_is_a_difference_to_the_event_without_the_agent() {
         change: CausalEffect::Helped,
         cut: false,
     };
-    let (with, without) = (event(fetch), event(|_| fetch(0)));
+    let with = event(fetch);
+    let without = event(|_| fetch(0));
     assert_eq!(counterfactual.judge(&scene, &with, &without), Ok(()));
     assert_eq!(counterfactual.judge(&scene, &with, &with), Err(RejectionReason::NoEffect));
     let hindered = Counterfactual { change: CausalEffect::Hindered, ..counterfactual };

@@ -5,7 +5,7 @@ use phase_model::{
     AgentBody, Body, Contacts, Grip, MAX_ENTITIES, ObjectId, PhysicsConfig, Side, State, Vec2,
 };
 
-/// Where every entity is at one step.
+/// The place of every entity at one step.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Move {
     /// x, y and angle of both agents.

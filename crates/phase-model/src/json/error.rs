@@ -2,7 +2,7 @@
 
 use thiserror::Error;
 
-/// Why something is not a JSON document of the expected format.
+/// The reason why something is not a JSON document of the expected format.
 #[derive(Clone, PartialEq, Eq, Debug, Error)]
 pub enum JsonError {
     /// The document is empty.

@@ -19,7 +19,7 @@ use serde_json::Value;
 use thiserror::Error;
 pub use write::{AgentMembers, ObjectMembers};
 
-/// Why a text is not a scene.
+/// The reason why a text is not a scene.
 #[derive(Clone, PartialEq, Debug, Error)]
 pub enum SceneReadError {
     /// It is not JSON.
@@ -57,7 +57,7 @@ impl Scene {
     ///     r#"{
     ///         "layout": {"base": 0},
     ///         "agents": [
-    ///             {"size_level": 0, "strength_level": 2, "alpha": 0, "start": {"x": 8, "y": 14, "angle": 1.5},
+    ///             {"size_level": 0, "strength_level": 2, "alpha": 0, "start": {"x": 8, "y": 14, "angle": 1},
     ///              "goal": {"kind": "touch", "agent": 0, "other": 1, "sign": 1}},
     ///             {"size_level": 0, "strength_level": 2, "alpha": 0, "start": {"x": 24, "y": 14},
     ///              "goal": {"kind": "touch", "agent": 0, "other": 1, "sign": -1}}
@@ -74,7 +74,7 @@ impl Scene {
         Self::from_value(&json::parse_text(text)?)
     }
 
-    /// The same for JSON that is already parsed.
+    /// Reads a scene from JSON that is already parsed.
     ///
     /// # Errors
     /// [`SceneReadError`] names the member and the rule that is violated.

@@ -40,7 +40,8 @@ impl Oracle {
             }
             let margin = (half_width + 0.1).min(0.5 * opening.length());
             let along = (opening.b - opening.a).normalize();
-            // Ends beside which there is a wall, and those at the boundary beside which there is one further in.
+            // Ends beside which there is a wall, and those at the boundary beside which there is one further
+            // in.
             let is_end = |point: Vec2| walls.iter().any(|wall| wall.distance(point) < 1e-3);
             let is_door = opening.length() < 9.9;
             let mut passage = opening;

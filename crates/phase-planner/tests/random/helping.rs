@@ -13,18 +13,20 @@ const SITUATIONS: usize = 2000;
 /// Upper bound of the share of situations in which both have the same subgoal.
 const MAX_SAME_SHARE: f64 = 0.6;
 
-/// A helper of an agent that wants an object on a landmark, and a neutral agent that wants it there itself: how
-/// often their first subgoals are the same.
+/// A helper of an agent that wants an object on a landmark, and a neutral agent that wants it there itself:
+/// how often their first subgoals are the same.
 #[test]
 fn helping_differs_from_an_own_errand() {
     let mut runner = TestRunner::deterministic();
     let strategy = problems();
     let observed: BodySet = Entity::ALL.into_iter().collect();
-    let (mut count, mut same) = (0, 0);
+    let mut count = 0;
+    let mut same = 0;
     while count < SITUATIONS {
         let situation = strategy.new_tree(&mut runner).expect("a problem").current();
         let goal @ Goal::ObjectOnLandmark { .. } = situation.goal else { continue };
-        let (state, physics) = (situation.state(), situation.physics());
+        let state = situation.state();
+        let physics = situation.physics();
         if phase_predicates::achieved(&physics, &state, goal) {
             continue;
         }
@@ -38,7 +40,8 @@ fn helping_differs_from_an_own_errand() {
             landmark: LandmarkId::TOP_LEFT,
             sign: phase_model::Sign::Positive,
         };
-        let (helper, own) = (first(Attitude::Help, goal), first(Attitude::Neutral, elsewhere));
+        let helper = first(Attitude::Help, goal);
+        let own = first(Attitude::Neutral, elsewhere);
         assert_ne!(own, Subgoal::Stay, "{situation:?}");
         count += 1;
         same += usize::from(helper == own);

@@ -1,4 +1,4 @@
-//! What a hinderer does in random situations.
+//! Plans of a hinderer in random situations.
 
 use crate::problems::problems;
 use phase_model::{AgentId, Attitude, BodySet, Entity, Goal, Subgoal};
@@ -32,7 +32,9 @@ fn a_hinderer_never_stays_while_the_other_has_a_way() {
         {
             continue;
         }
-        let (physics, state, map) = (situation.physics(), situation.state(), Map::new(situation.layout));
+        let physics = situation.physics();
+        let state = situation.state();
+        let map = Map::new(situation.layout);
         let problem = PlanningProblem::new(&physics, &map, &state, costs);
         let task = PlanningTask {
             problem: &problem,

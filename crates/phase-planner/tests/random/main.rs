@@ -1,4 +1,5 @@
-//! Random situations: A* against Dijkstra's algorithm, helpers beside agents with an own errand, and hinderers.
+//! Random situations: A* against Dijkstra's algorithm, helpers beside agents with an own errand, and
+//! hinderers.
 
 mod helping;
 mod hindering;

@@ -22,7 +22,7 @@ pub(crate) struct Problem {
     pub(crate) actors: [bool; 2],
     pub(crate) efforts: [Effort; 2],
     pub(crate) cooperative: bool,
-    /// Where a round body narrows doors for the given agent.
+    /// The place of a round body that narrows doors for the given agent.
     pub(crate) narrowed: Option<(AgentId, Vec2)>,
 }
 
@@ -53,7 +53,10 @@ impl Problem {
             gaps.obstruct(place, 1.0, 1.0);
             (agent, gaps)
         });
-        let (goal, actors, efforts, cooperative) = (self.goal, self.actors, self.efforts, self.cooperative);
+        let goal = self.goal;
+        let actors = self.actors;
+        let efforts = self.efforts;
+        let cooperative = self.cooperative;
         PlanningTask { problem, goal, actors, efforts, cooperative, narrowed }
     }
 }
@@ -68,8 +71,8 @@ fn place() -> impl Strategy<Value = Vec2> {
 
 fn goal(object_count: usize) -> impl Strategy<Value = Goal> {
     let sign = Sign::Positive;
-    let (agent, landmark) =
-        (prop::sample::select(AgentId::ALL.to_vec()), prop::sample::select(LandmarkId::ALL.to_vec()));
+    let agent = prop::sample::select(AgentId::ALL.to_vec());
+    let landmark = prop::sample::select(LandmarkId::ALL.to_vec());
     (0..3_u8, agent, 0..2_usize, landmark).prop_map(move |(kind, agent, object, landmark)| match kind {
         0 => Goal::AgentOnLandmark { agent, landmark, sign },
         1 if object_count > 0 => {
@@ -86,7 +89,8 @@ pub(crate) fn problems() -> impl Strategy<Value = Problem> {
     let body = || (size(), prop::sample::select(Strength::ALL.to_vec()));
     let actors = prop::sample::select(vec![[true, false], [false, true], [true, true]]);
     let efforts = {
-        let (own, helper) = (Effort::OWN, Effort::helper(0.4));
+        let own = Effort::OWN;
+        let helper = Effort::helper(0.4);
         prop::sample::select(vec![[own, own], [helper, own], [own, helper]])
     };
     let scene = (layout, [body(), body()], prop::collection::vec(size(), 0..=2));

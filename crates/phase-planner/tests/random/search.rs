@@ -64,11 +64,13 @@ fn no_plan_is_cheaper_and_the_heuristic_is_a_lower_bound() {
     let count = given.map_or(PROBLEMS, |text| text.parse().expect("a number of problems"));
     let mut runner = TestRunner::deterministic();
     let strategy = problems();
-    let (mut solved, mut informed) = (0, 0);
+    let mut solved = 0;
+    let mut informed = 0;
     for _ in 0..count {
         let random_problem = strategy.new_tree(&mut runner).expect("a problem").current();
-        let (map, physics, state) =
-            (Map::new(random_problem.layout), random_problem.physics(), random_problem.state());
+        let map = Map::new(random_problem.layout);
+        let physics = random_problem.physics();
+        let state = random_problem.state();
         let problem = PlanningProblem::new(&physics, &map, &state, PlannerParameters::default());
         let task = random_problem.task(&problem);
         let start = Node::start(&problem);

@@ -1,4 +1,4 @@
-//! The same inputs give the same bits.
+//! Equal inputs give equal bits.
 
 use crate::physics;
 use phase_model::{Action, Body, Layout, PhysicsConfig, Size, State, Strength, Vec2};

@@ -34,12 +34,14 @@ fn an_impact_takes_the_speed_into_the_wall_and_leaves_the_rest() {
 #[test]
 fn sliding_along_a_wall_costs_friction_only() {
     for angle in [0.0, core::f32::consts::PI] {
-        let (speed, mass) = (30.0, lone_agent(Size::Small, Strength::Weak).agents[0].mass());
+        let speed = 30.0;
+        let mass = lone_agent(Size::Small, Strength::Weak).agents[0].mass();
         let mut state = lone_state(Vec2::new(14.0, arena::MIN.y + 0.815), angle);
         // A small component of the velocity points into the wall, as when a push leans on it.
         state.bodies[0].velocity = Vec2::new(speed, -0.5);
         let mut world = World::new(&lone_agent(Size::Small, Strength::Weak), &state);
-        let (mut expected, mut position) = (speed, 14.0);
+        let mut expected = speed;
+        let mut position = 14.0;
         for state in world.step([Action::NoForce; 2]) {
             expected -= 100.0 * SUBSTEP_SECONDS / mass;
             position += expected * SUBSTEP_SECONDS;

@@ -75,7 +75,8 @@ fn pushing_sideways_turns_by_the_levers_of_push_and_friction() {
 
 /// Distance covered from a speed under a constant deceleration, in substeps.
 fn coasting_distance(speed: f32, deceleration: f32) -> f32 {
-    let (mut speed, mut distance) = (speed, 0.0);
+    let mut speed = speed;
+    let mut distance = 0.0;
     while speed > 0.0 {
         speed = (speed - deceleration / 60.0).max(0.0);
         distance += speed / 60.0;

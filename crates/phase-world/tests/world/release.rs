@@ -127,7 +127,8 @@ fn nothing_stays_inside_what_released_it() {
                 .count();
             for (i, row) in rows.iter_mut().enumerate() {
                 for (j, steps) in row.iter_mut().enumerate().take(i) {
-                    let (a, b) = (Entity::ALL[i], Entity::ALL[j]);
+                    let a = Entity::ALL[i];
+                    let b = Entity::ALL[j];
                     let depth = overlap(&physics, &state, a, b);
                     *steps = if depth > DEEP && !joined(&state, a, b) { *steps + 1 } else { 0 };
                     assert!(*steps <= STEPS, "scene {scene}: {b:?} and {a:?} overlap by {depth} u");
@@ -138,8 +139,8 @@ fn nothing_stays_inside_what_released_it() {
     assert!(releases > SCENES, "only {releases} releases");
 }
 
-/// An object at an agent's flank penetrates it by 0.106 r while it is held. What exceeds the tolerated overlap
-/// is corrected at the release; the rest is left alone.
+/// An object at an agent's flank penetrates it by 0.106 r while it is held. What exceeds the tolerated
+/// overlap is corrected at the release; the rest is left alone.
 #[test]
 fn objects_at_a_flank_hardly_move_when_released() {
     for size in Size::ALL {

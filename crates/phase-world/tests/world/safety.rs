@@ -110,7 +110,11 @@ proptest! {
         };
         let mut state = State::new([0, 6, 12, 18].map(body));
         for (slot, grip) in state.grips.iter_mut().zip(&grips) {
-            *slot = grip.map(|(object, side, relative_angle)| Grip { object: ObjectId::ALL[object], side: Side::ALL[side], relative_angle });
+            *slot = grip.map(|(object, side, relative_angle)| Grip {
+                object: ObjectId::ALL[object],
+                side: Side::ALL[side],
+                relative_angle,
+            });
         }
         let mut world = World::new(&physics, &state);
         for _ in 0..3 {
