@@ -10,8 +10,9 @@ pub(super) fn nearest<'a>(word: &str, candidates: &[&'a str]) -> Option<&'a str>
     (distance(nearest) <= allowed).then_some(nearest)
 }
 
-/// Edit distance of two words: the least number of letters to insert, remove, replace or swap with a neighbour
-/// (optimal string alignment). It tells which of several names was probably meant by a misspelt one.
+/// Edit distance of two words: the least number of letters to insert, remove, replace or swap with a
+/// neighbour (optimal string alignment). It tells which of several names was probably meant by a misspelt
+/// one.
 ///
 /// # Examples
 /// ```
