@@ -132,7 +132,8 @@ pub struct PhaseParameters {
     /// Clearance (u) beside the other's path within which an agent without a part in the other's plan gives
     /// way; at least 0.
     pub yielding_clearance: f32,
-    /// Distance (u) behind a door at which an object is expected to lie that was passed through it; at least 0.
+    /// Distance (u) behind a door at which an object is expected to lie that was passed through it; at least
+    /// 0.
     pub passing_depth: f32,
     /// Depth (u) inside a room at which a body counts as having entered it, 0.1 to 10.
     pub room_depth: f32,
@@ -141,13 +142,14 @@ pub struct PhaseParameters {
     pub corner: f32,
     /// Distance (u) to a bend of a path below which the bend is cut; above 0.
     pub bend_distance: f32,
-    /// Overlap (u) of an object and its holders with walls that does not count as a collision on their way; at
-    /// least 0.
+    /// Overlap (u) of an object and its holders with walls that does not count as a collision on their way;
+    /// at least 0.
     pub wall_overlap: f32,
-    /// Rise of the cost of a way from the nearest place without a collision into one, relative to the length of
-    /// that move, for an object and its holders; at least 0.
+    /// Rise of the cost of a way from the nearest place without a collision into one, relative to the length
+    /// of that move, for an object and its holders; at least 0.
     pub edge_rise: f32,
-    /// Length (u) of the way ahead over which the motion of an object and its holders is averaged; at least 0.
+    /// Length (u) of the way ahead over which the motion of an object and its holders is averaged; at least
+    /// 0.
     pub descent_length: f32,
 }
 

@@ -4,7 +4,7 @@ use crate::error::RunError;
 use phase_minds::{Foresight, MindKind, MindParameters, PhaseParameters};
 use phase_sim::{Engine, SimulationSettings};
 
-/// Which minds agents have.
+/// Choice of the minds that agents have.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub struct MindChoice {
     /// The kind of minds; without one that of the method, or our own in simulations.
@@ -32,7 +32,7 @@ impl MindChoice {
 pub struct Effort {
     /// Physics engine of the events.
     pub engine: Option<Engine>,
-    /// Which minds the agents have.
+    /// Minds of the agents.
     pub minds: MindChoice,
     /// Dynamics in the agents' search.
     pub foresight: Option<Foresight>,
@@ -56,7 +56,8 @@ impl Effort {
     /// The settings of the simulation, where minds have these parameters in place of the defaults.
     ///
     /// # Errors
-    /// [`RunError::Usage`], if other minds were requested, or minds of this kind do not have a parameter that was given.
+    /// [`RunError::Usage`], if other minds were requested, or minds of this kind do not have a parameter that
+    /// was given.
     pub fn settings_with(&self, mut minds: MindParameters) -> Result<SimulationSettings, RunError> {
         if let Some(kind) = self.minds.kind.filter(|kind| *kind != minds.kind()) {
             let asked = kind.name();

@@ -24,7 +24,7 @@ use std::{
     time::Instant,
 };
 
-/// What all events of a run have in common.
+/// Writer of events, with everything that the events of a run have in common.
 pub struct EventWriter {
     settings: SimulationSettings,
     settings_value: Value,
@@ -32,7 +32,7 @@ pub struct EventWriter {
     progress: Box<dyn Progress>,
 }
 
-/// What makes one event different from the others.
+/// Properties of one event that differ from the other events of its run.
 #[derive(Debug)]
 pub struct EventJob {
     /// Its id.
@@ -102,7 +102,8 @@ impl EventWriter {
             }
         };
         self.write(job, &event, fresh)?;
-        let (kind, length) = (event.scene.kind.name(), event.steps.len());
+        let kind = event.scene.kind.name();
+        let length = event.steps.len();
         let how = if fresh { format!("{:.1} s", begun.elapsed().as_secs_f64()) } else { "kept".into() };
         self.finished(steps, &format!("{id} {kind}: {length} steps ({how})"));
         Ok(Some(event))
@@ -126,7 +127,8 @@ impl EventWriter {
     }
 
     fn write_json(&self, job: &EventJob, event: &Event) -> Result<(), RunError> {
-        let (generator, mut settings) = (GENERATOR.into(), self.settings_value.clone());
+        let generator = GENERATOR.into();
+        let mut settings = self.settings_value.clone();
         if let Some((min, max)) = job.lengths {
             (settings["min_steps"], settings["max_steps"]) = (min.into(), max.into());
         }
@@ -156,7 +158,7 @@ pub fn write_video(path: &Path, id: &str, event: &Event) -> Result<(), RunError>
     Ok(atomic::write(path, &video(id, event)?)?)
 }
 
-/// The same video in memory.
+/// Draws the video of a simulated event in memory, a frame for each substep.
 ///
 /// # Errors
 /// As [`picture::video`].

@@ -1,7 +1,7 @@
 //! Export of a dataset as WebDataset: tar files that training programs read from the first byte to the last.
 //!
-//! A sample is an event: `<id>.mp4`, `<id>.json` with its labels, the entry of the manifest, and `<id>.phase-events`, its file
-//! of the format `phase-events/1`.
+//! A sample is an event: `<id>.mp4`, `<id>.json` with its labels, the entry of the manifest, and
+//! `<id>.phase-events`, its file of the format `phase-events/1`.
 
 use crate::{error::RunError, interrupt, listener::Listener, words};
 use phase_dataset::{
@@ -33,8 +33,9 @@ pub struct Exported {
     pub is_new: bool,
 }
 
-/// Exports the finished dataset in a folder into another, which is new, empty, or of the same export: this number of events to a
-/// tar file. The same dataset gives the same bytes; tar files that are complete are kept after an interruption.
+/// Exports the finished dataset in a folder into another, which is new, empty, or of the same export: this
+/// number of events to a tar file. The same dataset gives the same bytes; tar files that are complete are
+/// kept after an interruption.
 ///
 /// # Errors
 /// If the dataset or the folder cannot be used, a file cannot be written, or a stop was requested.

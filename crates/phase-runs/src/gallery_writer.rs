@@ -1,5 +1,5 @@
-//! Writing the pages on which events can be watched, one after the other, so that no more than the events of one page are in
-//! memory.
+//! Writing the pages on which events can be watched, one after the other, so that no more than the events of
+//! one page are in memory.
 
 use crate::error::RunError;
 use phase_dataset::manifest::{EventEntry, PAGE_FILE};

@@ -1,17 +1,21 @@
 //! Runs of PHASE on many events: datasets are generated and verified, methods evaluated, networks trained.
 //!
-//! - [`gen_dataset::Generation`] generates a dataset, or one shard of it, [`gen_dataset::merge`] combines shards.
+//! - [`gen_dataset::Generation`] generates a dataset, or one shard of it, [`gen_dataset::merge`] combines
+//!   shards.
 //! - [`simulate::Simulations`] simulates the scenes of a file.
-//! - [`verify`] checks that a dataset is whole and that its files are what follows from its preset and seed; [`export`] packs it for
-//!   training programs.
-//! - [`eval::Evaluation`] evaluates a method, by its name or one of your own; [`benchmark::BenchmarkRun`] evaluates all of them.
+//! - [`verify`] checks that a dataset is whole and that its files are what follows from its preset and seed;
+//!   [`export`] packs it for training programs.
+//! - [`eval::Evaluation`] evaluates a method, by its name or one of your own; [`benchmark::BenchmarkRun`]
+//!   evaluates all of them.
 //! - `train::Training` trains a network (feature `networks`).
-//! - [`source::EventInput`] opens files and folders with events, [`event_writer`] and [`picture`] make the files of one event.
+//! - [`source::EventInput`] opens files and folders with events, [`event_writer`] and [`picture`] make the
+//!   files of one event.
 //!
-//! Key design decision: a run belongs to a folder that knows which run it is. Everything finished is a file there, written whole or
-//! not at all, so that the same run goes on after any interruption and gives the same bytes, for any number of threads and shards.
-//! Nothing is printed: a [`listener::Listener`] hears notes and progress, and an [`error::RunError`] is one plain sentence. The
-//! trade-off is that every run needs a folder, and that a result of another version of the program is refused, not converted.
+//! Key design decision: a run belongs to a folder that knows which run it is. Everything finished is a file
+//! there, written whole or not at all, so that the same run goes on after any interruption and gives the same
+//! bytes, for any number of threads and shards. Nothing is printed: a [`listener::Listener`] hears notes and
+//! progress, and an [`error::RunError`] is one plain sentence. The trade-off is that every run needs a
+//! folder, and that a result of another version of the program is refused, not converted.
 //!
 //! A dataset of one short event is generated and verified, and a method evaluated on it:
 //!

@@ -33,7 +33,8 @@ impl dyn Listener + '_ {
 pub struct Work<'a> {
     /// A description, such as `simulating 12 events`.
     pub activity: &'a str,
-    /// Events that it consists of and that are reported one by one with [`Progress::event`]; 0 if it is counted in steps alone.
+    /// Events that it consists of and that are reported one by one with [`Progress::event`]; 0 if it is
+    /// counted in steps alone.
     pub events: usize,
     /// Its amount (steps).
     pub steps: usize,

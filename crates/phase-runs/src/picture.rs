@@ -33,7 +33,7 @@ pub struct BeliefFrame {
     pub captions: Vec<Caption>,
 }
 
-/// What an observer makes of an event until a frame.
+/// Inferences of an observer of an event until a frame.
 #[derive(Clone, Debug)]
 pub struct ObserverFrame<'a> {
     /// The text above.
@@ -46,8 +46,8 @@ pub struct ObserverFrame<'a> {
     pub times: usize,
 }
 
-/// A state to draw and the agents' views to draw over it, each in a separate picture beside the others', or what an observer makes
-/// of it; without any only the state. Several frames may share a view.
+/// A state to draw and the agents' views to draw over it, each in a separate picture beside the others', or
+/// what an observer makes of it; without any only the state. Several frames may share a view.
 #[derive(Clone, Debug)]
 pub struct RenderedState<'a> {
     /// The true state.
@@ -58,8 +58,9 @@ pub struct RenderedState<'a> {
     pub observer: Option<&'a ObserverFrame<'a>>,
 }
 
-/// Writes a video. States are drawn as they come, so that they need not be in memory at once; all have the same views. Returns
-/// `false`, and leaves no file, if `interrupted`, which is called before each frame, returns `true`.
+/// Writes a video. States are drawn as they come, so that they need not be in memory at once; all have the
+/// same views. Returns `false`, and leaves no file, if `interrupted`, which is called before each frame,
+/// returns `true`.
 ///
 /// # Errors
 /// [`RunError::Write`] or [`RunError::Render`]; then there is no file.
@@ -77,7 +78,7 @@ pub fn write_video<'a>(
     }
 }
 
-/// The same video in memory; `None` if it was interrupted.
+/// Draws a video in memory; `None` if it was interrupted.
 ///
 /// # Errors
 /// [`RunError::Render`].
@@ -115,7 +116,7 @@ pub fn write_side_by_side(path: &Path, id: &str, events: &[&Event]) -> Result<()
     Ok(atomic::write(path, &beside(id, events)?)?)
 }
 
-/// The same video in memory.
+/// Draws in memory a video of several events beside each other, smaller, until the longest ends.
 ///
 /// # Errors
 /// [`RunError::Render`].
@@ -181,7 +182,8 @@ fn columns(count: usize) -> usize {
     (squarest..=widest).min_by_key(|columns| count.next_multiple_of(*columns)).unwrap_or(widest)
 }
 
-/// Title and captions are only for views of agents and an observer, the legend for the former, the course for the latter.
+/// Title and captions are only for views of agents and an observer, the legend for the former, the course for
+/// the latter.
 fn style(style: Style, palette: Palette, items: &[RenderedState<'_>]) -> Style {
     let explained = items.iter().any(|item| !item.minds.is_empty());
     let observer = items.iter().find_map(|item| item.observer);

@@ -1,4 +1,5 @@
-//! The shortcut audit of a dataset or of other events: what a standard classifier tells without looking at motion.
+//! The shortcut audit of a dataset or of other events: what a standard classifier tells without looking at
+//! motion.
 
 use crate::{
     error::RunError,
@@ -11,7 +12,8 @@ use phase_audit::{Audit, AuditItem, MAX_EVENTS, Target, audit};
 use serde_json::{Value, json};
 use std::{collections::BTreeMap, path::Path};
 
-/// How much more often than the most frequent class a benchmark's motion-free features may tell a label.
+/// Greatest excess of a benchmark's motion-free features over the most frequent class in telling a label (0
+/// to 1).
 const MAX_EXCESS: f64 = 0.06;
 
 /// Audits the events of a file or folder; `None` if they are too few.

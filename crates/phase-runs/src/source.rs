@@ -1,4 +1,4 @@
-//! Where events come from: a file, or the folder of a dataset.
+//! Source of events: a file, or the folder of a dataset.
 
 use crate::{error::RunError, listener::Listener};
 use phase_dataset::{
@@ -18,7 +18,8 @@ use std::{
     path::{Path, PathBuf},
 };
 
-/// What determines how an event is judged and simulated: its layout, bodies, labels and rows, as in its file.
+/// Parts of an event that determine its judgement and simulation: its layout, bodies, labels and rows, as in
+/// its file.
 ///
 /// # Errors
 /// If it holds a number that is not finite.
@@ -53,7 +54,8 @@ pub struct EventFile {
 }
 
 impl EventInput {
-    /// Opens an event file, the folder of a dataset or of simulations, or one with event files and nothing that describes them.
+    /// Opens an event file, the folder of a dataset or of simulations, or one with event files and nothing
+    /// that describes them.
     ///
     /// # Errors
     /// If there is nothing of the kind, or no event of one of the ids. Files of a folder are only read when
@@ -189,7 +191,8 @@ fn of_files(folder: &Path, ids: &[String], listener: &dyn Listener) -> Result<Ev
     for file in files {
         for (_, recording) in read(&file, &[], listener)? {
             if !known.insert(recording.id.to_ascii_lowercase()) {
-                let (file, id) = (file.display(), &recording.id);
+                let file = file.display();
+                let id = &recording.id;
                 return Err(RunError::Usage(format!(
                     "{file}: another file of the folder has an event {id}, too"
                 )));

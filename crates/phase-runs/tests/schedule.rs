@@ -112,7 +112,8 @@ impl Crew {
     }
 }
 
-/// Whatever the number of threads and the order in which they end, every slot is filled with its first good attempt.
+/// Whatever the number of threads and the order in which they end, every slot is filled with its first good
+/// attempt.
 #[test]
 fn the_first_good_attempt_counts_for_any_threads() {
     for (seed, threads) in (0..60).flat_map(|seed| [1, 2, 3, 8, 40].map(|threads| (seed, threads))) {
@@ -160,8 +161,8 @@ fn one_thread_does_one_thing_after_the_other() {
     assert!(crew.begun == expected);
 }
 
-/// While a slot has not been opened, only what is certain to count is begun; then attempts run ahead, but not beyond what
-/// memory is meant to hold.
+/// While a slot has not been opened, only what is certain to count is begun; then attempts run ahead, but not
+/// beyond what memory is meant to hold.
 #[test]
 fn nothing_runs_ahead_while_there_are_slots() {
     for seed in 0..40 {
@@ -210,7 +211,8 @@ fn what_is_likely_to_count_comes_first() {
     assert_eq!(schedule.next(), Some(Job::Simulate(id(0, 0), MEMBER)));
     schedule.progressed(id(1, 1), needs());
     assert_eq!(schedule.next(), Some(Job::Simulate(id(1, 1), MEMBER)));
-    // Chances: by the rule of succession an easy attempt is accepted with 2/3 · 2/3, a hard one with 1/3 · 1/2.
+    // Chances: by the rule of succession an easy attempt is accepted with 2/3 · 2/3, a hard one with 1/3 ·
+    // 1/2.
     let begun: Vec<Job> = core::iter::from_fn(|| schedule.next()).take(4).collect();
     let expected = [id(1, 2), id(1, 3), id(1, 4), id(0, 1)].map(Job::Begin);
     assert_eq!(begun, expected);

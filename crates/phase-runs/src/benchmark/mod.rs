@@ -1,8 +1,8 @@
 //! The benchmark: every method at both tasks, compared with published results, in one report.
 //!
-//! [`plan`] selects the methods, `rows` has each of them evaluated, exactly as an evaluation alone would, and the results
-//! are combined in one report. Evaluations stay in their folders, so a benchmark can be interrupted and
-//! resumed.
+//! [`plan`] selects the methods, `rows` has each of them evaluated, exactly as an evaluation alone would, and
+//! the results are combined in one report. Evaluations stay in their folders, so a benchmark can be
+//! interrupted and resumed.
 
 pub mod plan;
 mod rows;
@@ -37,7 +37,7 @@ pub struct BenchmarkRun {
     pub data: PathBuf,
     /// Recordings to evaluate on, too: a `phase-events/1` file or a folder of events.
     pub real: Option<PathBuf>,
-    /// How people rated the relations of the recordings (`phase-ratings/1`).
+    /// Ratings by people of the relations of the recordings (`phase-ratings/1`).
     pub ratings: Option<PathBuf>,
     /// A dataset of sets to evaluate goals on, too; without the variants of SIMPLE and networks of `trained`.
     pub pairs: Option<PathBuf>,
@@ -68,17 +68,20 @@ pub struct BenchmarkRun {
 }
 
 impl BenchmarkRun {
-    /// Evaluates every method that is not yet evaluated and writes the report; `None` if that is only a part, which is now done.
+    /// Evaluates every method that is not yet evaluated and writes the report; `None` if that is only a part,
+    /// which is now done.
     ///
     /// # Errors
-    /// If events, weights or a folder cannot be used, a method has no answer, a file cannot be written, or a stop was requested.
+    /// If events, weights or a folder cannot be used, a method has no answer, a file cannot be written, or a
+    /// stop was requested.
     pub fn run(&self, listener: &dyn Listener) -> Result<Option<(Benchmark, Document)>, RunError> {
         let entries = entries(self)?;
         let mut rows = Rows::open(self, listener)?;
         for file in &self.results {
             rows.add_results(file)?;
         }
-        let (out, run) = (&self.out, Run::new([("command", "benchmark".into())]));
+        let out = &self.out;
+        let run = Run::new([("command", "benchmark".into())]);
         if let Contents::Unfinished(other) = folder::inspect(out, BENCHMARK_FILE)? {
             run.check(out, "an unfinished", &other)?;
         }
@@ -124,8 +127,8 @@ impl BenchmarkRun {
         plan::needs_networks(self)
     }
 
-    /// The options that determine what is measured, as a command line has them; those that are left at their defaults are
-    /// left out.
+    /// The options that determine what is measured, as a command line has them; those that are left at their
+    /// defaults are left out.
     fn measured(&self) -> Vec<String> {
         let path = |path: &Path| path.display().to_string();
         let paths = |paths: &[PathBuf]| paths.iter().map(|it| path(it)).collect::<Vec<_>>();

@@ -1,4 +1,4 @@
-//! Which methods are evaluated at which task.
+//! Plan of a benchmark: the methods that are evaluated at each task.
 
 use super::BenchmarkRun;
 use crate::{effort::MindChoice, error::RunError, eval::networks};
@@ -80,8 +80,8 @@ impl BenchmarkEntry {
 }
 
 impl BenchmarkEntry {
-    /// Whether the method is asked about sets that differ in one social variable: about goals, with its own weights, and
-    /// without the variants of SIMPLE, which take several times as long.
+    /// Whether the method is asked about sets that differ in one social variable: about goals, with its own
+    /// weights, and without the variants of SIMPLE, which take several times as long.
     #[must_use]
     pub(super) fn does_pairs(&self) -> bool {
         self.task == Task::Goals && self.weights.is_none() && !self.method.starts_with("simple-")
@@ -135,8 +135,8 @@ pub(super) fn entries(run: &BenchmarkRun) -> Result<Vec<BenchmarkEntry>, RunErro
     Ok(entries)
 }
 
-/// The minds that a method imagines in recordings or in generated events. Bodies in the recordings of the published simulator
-/// turn one way; only SIMPLE has minds.
+/// The minds that a method imagines in recordings or in generated events. Bodies in the recordings of the
+/// published simulator turn one way; only SIMPLE has minds.
 pub(super) fn minds_of(run: &BenchmarkRun, method: &str, recorded: bool) -> MindChoice {
     if !Simple::NAMES.contains(&method) {
         return MindChoice::default();

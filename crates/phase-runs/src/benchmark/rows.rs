@@ -36,7 +36,7 @@ pub(super) struct Rows<'a> {
     run: &'a BenchmarkRun,
     inputs: Vec<(Input, Evaluation)>,
     ratings: Option<Ratings>,
-    /// What the bundled model of reports was fitted to.
+    /// Events that the bundled model of reports was fitted to.
     reports: ReportTraining,
     benchmark: benchmark::Benchmark,
 }
@@ -58,10 +58,13 @@ impl<'a> Rows<'a> {
         let generated = (GENERATED, common(&run.data, Some(Split::Test)));
         let real = run.real.as_deref().map(|file| (RECORDED, common(file, None)));
         let pairs = run.pairs.as_deref().map(|folder| (PAIRS, common(folder, None)));
-        let (mut inputs, mut sets) = (Vec::new(), Vec::new());
+        let mut inputs = Vec::new();
+        let mut sets = Vec::new();
         for (label, common) in [generated].into_iter().chain(real).chain(pairs) {
             let input = Input::open(&common, listener)?;
-            let (name, label, sha256) = (input.description.clone(), label.into(), input.sha256.clone());
+            let name = input.description.clone();
+            let label = label.into();
+            let sha256 = input.sha256.clone();
             sets.push(EventSet { name, label, sha256, events: input.events.len() });
             inputs.push((input, common));
         }
@@ -132,9 +135,10 @@ impl<'a> Rows<'a> {
         // Each part has its evaluations in a folder of its own, by the same names.
         common.merge = self.run.merge.iter().map(|part| part.join(&folder)).collect();
         common.out = Some(self.run.evaluations.join(folder));
-        let (weights, origin) =
-            (weights.as_deref(), if weights.is_some() { Origin::Trained } else { Origin::Ours });
-        let (name, seed) = (name.clone(), self.run.seed);
+        let origin = if weights.is_some() { Origin::Trained } else { Origin::Ours };
+        let weights = weights.as_deref();
+        let name = name.clone();
+        let seed = self.run.seed;
         let recorded = self.benchmark.sets[set].label == RECORDED;
         let minds = minds_of(self.run, method, recorded);
         match task {
@@ -170,11 +174,13 @@ impl<'a> Rows<'a> {
             let problem = Problem::Shape { what: "results file", rule };
             RunError::File(FileError { file: file.to_owned(), problem })
         };
-        let (format, sha256) = (results["format"].as_str(), results["run"]["events_sha256"].as_str());
+        let format = results["format"].as_str();
+        let sha256 = results["run"]["events_sha256"].as_str();
         let name = results["method"].as_str().unwrap_or_default().to_owned();
         let set = self.benchmark.sets.iter().position(|set| Some(set.sha256.as_str()) == sha256);
         let set = set.ok_or_else(|| fail("field `run.events_sha256` is not that of these events".into()))?;
-        let (input, seed) = (&self.inputs[set].0, self.run.seed);
+        let input = &self.inputs[set].0;
+        let seed = self.run.seed;
         match format {
             Some(RecognisedEvent::FORMAT) => {
                 let events: Vec<RecognisedEvent> = events_of(&results, input).map_err(fail)?;
@@ -227,7 +233,8 @@ fn row<A: ScoredEvent>(
         Some(Subset { familiarity, summary: A::sum_up(&events.collect::<Vec<A>>(), seed)? })
     };
     let parts = Familiarity::ALL.into_iter().filter_map(part).collect();
-    let (summary, mistakes) = (A::sum_up(events, seed)?, A::mistakes(events));
+    let summary = A::sum_up(events, seed)?;
+    let mistakes = A::mistakes(events);
     Some(Row { method, origin, set, training, summary, mistakes, parts })
 }
 

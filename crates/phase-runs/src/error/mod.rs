@@ -105,7 +105,7 @@ pub enum RunError {
     /// The threads could not be started.
     #[error("cannot start {jobs} threads: {source}")]
     Threads {
-        /// How many.
+        /// Number of threads.
         jobs: usize,
         /// Why.
         source: ThreadPoolBuildError,
@@ -113,7 +113,7 @@ pub enum RunError {
     /// A value cannot be converted to JSON.
     #[error("{what} cannot be written as JSON: {source}")]
     Serialise {
-        /// What.
+        /// Name of the value.
         what: &'static str,
         /// Why.
         source: serde_json::Error,
@@ -179,7 +179,7 @@ pub enum RunError {
     Interrupted(PathBuf),
 }
 
-/// What has to change for a run to succeed.
+/// Thing that has to change for a run to succeed.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Fault {
     /// The input, the options or the output folder.
@@ -191,7 +191,7 @@ pub enum Fault {
 }
 
 impl RunError {
-    /// What has to change for the run to succeed.
+    /// Thing that has to change for the run to succeed.
     #[must_use]
     pub const fn fault(&self) -> Fault {
         match self {
@@ -243,7 +243,7 @@ impl RunError {
     }
 }
 
-/// What has become of a run that could not write or read one of its files.
+/// Says what has become of a run that could not write or read one of its files.
 fn kept(path: &Path) -> &'static str {
     let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
     if folder.is_none_or(Path::exists) {

@@ -27,7 +27,7 @@ pub enum TrainError {
     NoEvents {
         /// The dataset.
         folder: PathBuf,
-        /// What it lacks.
+        /// Name of the split that it lacks.
         split: &'static str,
     },
     /// The dataset has fewer training events than requested.
@@ -88,7 +88,7 @@ pub enum TrainError {
     TrainingRecord {
         /// The file.
         file: PathBuf,
-        /// What the training would resume from.
+        /// File from which the training would resume.
         checkpoint: PathBuf,
         /// Why.
         source: TrainingRecordError,
@@ -108,7 +108,7 @@ pub enum TrainError {
 }
 
 impl TrainError {
-    /// What has to change for the training to succeed.
+    /// Thing that has to change for the training to succeed.
     #[must_use]
     pub const fn fault(&self) -> Fault {
         match self {

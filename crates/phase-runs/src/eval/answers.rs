@@ -21,8 +21,8 @@ pub(super) enum AnswerSource<M: ?Sized, A> {
     PredictionsFile(PredictionsFile<A>),
 }
 
-/// The answer to an event with details of the method, and the CPU time for it (s) where a method was asked; `None` if it was
-/// cancelled.
+/// The answer to an event with details of the method, and the CPU time for it (s) where a method was asked;
+/// `None` if it was cancelled.
 pub(super) type Answered<A> = Option<(A, Value, Option<f64>)>;
 
 impl<M: ?Sized, A: Clone> AnswerSource<M, A> {
@@ -39,7 +39,8 @@ impl<M: ?Sized, A: Clone> AnswerSource<M, A> {
         }
     }
 
-    /// Everything that determines the answers: what `of_method` says of a method, or the contents of the file.
+    /// Everything that determines the answers: what `of_method` says of a method, or the contents of the
+    /// file.
     pub(super) fn settings(&self, of_method: impl FnOnce(&M) -> Value) -> Value {
         match self {
             Self::Method(method) => of_method(method),
@@ -47,7 +48,8 @@ impl<M: ?Sized, A: Clone> AnswerSource<M, A> {
         }
     }
 
-    /// The answer to an event: the file's, or the one that `ask` gets from the method, with the CPU time that it takes.
+    /// The answer to an event: the file's, or the one that `ask` gets from the method, with the CPU time that
+    /// it takes.
     ///
     /// # Errors
     /// If there is none.

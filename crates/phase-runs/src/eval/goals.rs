@@ -25,7 +25,7 @@ pub(crate) struct Goals {
     answers: AnswerSource<dyn Recogniser, Answer>,
     /// Prefixes of each event to evaluate too, by their lengths (s).
     watched: Vec<f64>,
-    /// How people rated the events, if they were asked.
+    /// Ratings of the events by people, if they were asked.
     ratings: Option<Ratings>,
 }
 

@@ -113,7 +113,8 @@ fn of_manifest(manifest: &Manifest, split: Option<Split>) -> Vec<Event> {
 
 /// An event of a file; its digest covers labels and rows, independent of the layout of the file.
 fn of_recording(index: usize, recording: &Recording) -> Result<Event, RunError> {
-    let (scene, rows) = (&recording.scene, &recording.trajectory);
+    let scene = &recording.scene;
+    let rows = &recording.trajectory;
     Ok(Event {
         id: recording.id.clone(),
         steps: rows.steps(),

@@ -24,8 +24,8 @@ pub fn recognisers() -> Vec<&'static str> {
     Simple::NAMES.into_iter().chain(OTHER_RECOGNISERS).collect()
 }
 
-/// A method for goals and relations; networks with the weights of a file or, without one, the bundled ones, SIMPLE with these
-/// minds.
+/// A method for goals and relations; networks with the weights of a file or, without one, the bundled ones,
+/// SIMPLE with these minds.
 ///
 /// # Errors
 /// If there is none of this name in this build, or the file cannot be used.

@@ -1,8 +1,8 @@
 //! Evaluation of how well a method perceives events.
 //!
 //! [`methods`] knows the methods by name, `task` asks one of them event by event and stores its answers, so
-//! that a run can be interrupted; `shards` divides it among machines; `goals` and `trajectories` are the two tasks, `answers` has
-//! also those of an external method.
+//! that a run can be interrupted; `shards` divides it among machines; `goals` and `trajectories` are the two
+//! tasks, `answers` has also those of an external method.
 
 mod answers;
 pub(crate) mod goals;
@@ -29,8 +29,8 @@ use trajectories::Trajectories;
 
 /// An evaluation of a method on the events of a file or dataset.
 ///
-/// Answers are stored as they are computed: interrupted, the same evaluation goes on from what is finished. Results do not depend
-/// on threads and shards.
+/// Answers are stored as they are computed: interrupted, the same evaluation goes on from what is finished.
+/// Results do not depend on threads and shards.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Evaluation {
     /// A file in the format `phase-events/1`, or the folder of a dataset or of simulations.
@@ -100,8 +100,8 @@ impl Evaluation {
     /// Evaluates goals and relations, Task 1 of the paper; `None` if that is only a part, which is now done.
     ///
     /// # Errors
-    /// If the events, the answers or the folder cannot be used, the method has no answer, a file cannot be written, or a stop was
-    /// requested.
+    /// If the events, the answers or the folder cannot be used, the method has no answer, a file cannot be
+    /// written, or a stop was requested.
     pub fn goals(
         &self,
         answers: &Answers,
@@ -113,7 +113,8 @@ impl Evaluation {
         self.ask_goals(goals, ratings, &input, listener)
     }
 
-    /// Evaluates goals and relations by a method of your own; see [`Evaluation::goals`]. The name is for folders and reports.
+    /// Evaluates goals and relations by a method of your own; see [`Evaluation::goals`]. The name is for
+    /// folders and reports.
     ///
     /// # Errors
     /// Those of [`Evaluation::goals`].
@@ -128,7 +129,8 @@ impl Evaluation {
         self.ask_goals(Goals::by(name, method), ratings, &input, listener)
     }
 
-    /// Evaluates predicted trajectories, Task 2 of the paper; `None` if that is only a part, which is now done.
+    /// Evaluates predicted trajectories, Task 2 of the paper; `None` if that is only a part, which is now
+    /// done.
     ///
     /// # Errors
     /// Those of [`Evaluation::goals`].

@@ -10,7 +10,7 @@ use phase_files::{
 };
 use std::{collections::BTreeMap, path::Path};
 
-/// How people rated events.
+/// Ratings of events by people.
 #[derive(Clone, Debug)]
 pub(crate) struct Ratings {
     counts: BTreeMap<String, RatingCounts>,
@@ -41,7 +41,7 @@ impl Ratings {
         Ok(Self { counts, sha256: hexadecimal(&sha256(&bytes)) })
     }
 
-    /// How an event was rated, if it was.
+    /// Ratings of an event, if it was rated.
     pub(super) fn of(&self, id: &str) -> Option<RatingCounts> {
         self.counts.get(id).copied()
     }

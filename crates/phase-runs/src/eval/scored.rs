@@ -1,4 +1,4 @@
-//! What the answers to both tasks have in common once they are compared with the labels.
+//! Common parts of the answers to both tasks once they are compared with the labels.
 
 use phase_document::document::Document;
 use phase_eval::{

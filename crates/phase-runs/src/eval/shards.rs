@@ -20,7 +20,7 @@ const SHARD: &str = "shard";
 #[serde(deny_unknown_fields)]
 pub(super) struct EvaluationShard {
     format: String,
-    /// Which one, from 1.
+    /// Number of the part, from 1.
     shard: usize,
     /// Of how many.
     of: usize,
@@ -51,7 +51,8 @@ pub(super) fn run_of(whole: &Run, shard: Option<(usize, usize)>) -> Run {
 /// # Errors
 /// If the file cannot be written.
 pub(super) fn write(out: &Path, shard: usize, of: usize, whole: &Run, program: &str) -> Result<(), RunError> {
-    let (format, whole) = (SHARD_FORMAT.into(), whole.value().clone());
+    let format = SHARD_FORMAT.into();
+    let whole = whole.value().clone();
     let part = EvaluationShard { format, shard, of, whole, program: program.into() };
     Ok(atomic::write_json(&out.join(SHARD_FILE), &part)?)
 }
@@ -82,7 +83,8 @@ pub(super) fn read(folder: &Path) -> Result<EvaluationShard, RunError> {
 /// All parts of an evaluation, in order.
 pub(super) struct Merged(Vec<AnswerStore>);
 
-/// Opens the parts, in any order; `None` if there are none. All parts of the evaluation must be there, made by one program.
+/// Opens the parts, in any order; `None` if there are none. All parts of the evaluation must be there, made
+/// by one program.
 ///
 /// # Errors
 /// [`RunError::Usage`], [`FolderError`](phase_files::folder::FolderError), or if a part cannot be used.
@@ -97,7 +99,8 @@ pub(super) fn open(folders: &[PathBuf], whole: &Run) -> Result<Option<Merged>, R
     let Some((first, place)) = parts.first() else { return Ok(None) };
     for (number, (part, folder)) in (1..).zip(&parts) {
         if part.of != first.of || part.program != first.program {
-            let (folder, place) = (folder.display(), place.display());
+            let folder = folder.display();
+            let place = place.display();
             let rule = "is no part of the same division by the same program as";
             return Err(RunError::Usage(format!("{folder}: {rule} {place}")));
         }

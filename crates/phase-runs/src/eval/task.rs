@@ -1,4 +1,4 @@
-//! What the two tasks have in common: ask a method event by event, store its answers, aggregate, report.
+//! Steps that both tasks have in common: ask a method event by event, store its answers, aggregate, report.
 
 use super::{
     Evaluation,

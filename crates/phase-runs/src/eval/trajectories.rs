@@ -87,7 +87,9 @@ impl Task for Trajectories {
         if event.steps > WATCHED_STEPS {
             return Ok(());
         }
-        let (file, id, steps) = (file.display(), &event.id, event.steps);
+        let file = file.display();
+        let id = &event.id;
+        let steps = event.steps;
         Err(RunError::Usage(format!(
             "{file}: event {id} has {steps} steps; {WATCHED_STEPS} are watched and at least one more is to be predicted"
         )))

@@ -1,8 +1,8 @@
 //! One attempt at a slot: its scenes, the simulations that it takes, and their judgement.
 //!
-//! An attempt depends on the dataset's seed, the slot and the attempt's number alone, and its judgement on its simulations,
-//! whoever runs them when. Where several events are simulated, or compared with what happens while an agent is idle, the
-//! first in order that fails is the reason for rejection.
+//! An attempt depends on the dataset's seed, the slot and the attempt's number alone, and its judgement on
+//! its simulations, whoever runs them when. Where several events are simulated, or compared with what happens
+//! while an agent is idle, the first in order that fails is the reason for rejection.
 
 use super::schedule::{Need, Part};
 use core::ops::ControlFlow;
@@ -53,7 +53,7 @@ pub(super) struct Member {
     pub(super) counterfactual: Option<Counterfactual>,
 }
 
-/// What is known of an attempt.
+/// Judgement of an attempt, from the simulations so far.
 #[derive(Debug)]
 pub(super) enum Judgement {
     /// It takes further simulations; see [`super::schedule::Standing::Needs`].
@@ -123,8 +123,8 @@ impl Cast {
         }
     }
 
-    /// Which agents may have to be idle beside which event, each with its chance; where that is not known yet, whatever is
-    /// possible.
+    /// Agents that may have to be idle, with the event and the chance of each; where that is not known
+    /// yet, whatever is possible.
     fn comparisons(&self, results: &Results) -> Vec<Need> {
         let mut comparisons: Vec<Need> = Vec::new();
         for (member, cast) in self.members.iter().enumerate().filter(|_| self.compared) {
@@ -135,8 +135,8 @@ impl Cast {
             };
             let share = 1.0 / agents.len().max(1) as f64;
             for agent in agents {
-                // Where the changed agent does nothing, its stance makes no difference: one simulation serves all comparisons
-                // with it.
+                // Where the changed agent does nothing, its stance makes no difference: one simulation serves
+                // all comparisons with it.
                 let served =
                     |need: &Need| matches!(need.part, Part::Idle { agent: other, .. } if other == agent);
                 if !comparisons.iter().any(served) {
@@ -164,7 +164,7 @@ impl Results {
         core::mem::take(&mut self.members).into_values().flatten().map(|member| member.event).collect()
     }
 
-    /// What is known of the attempt, and how many events have passed the tests on themselves.
+    /// Number of events that have passed the tests on themselves, and the judgement of the attempt.
     pub(super) fn judge(&self, cast: &Cast) -> (usize, Judgement) {
         let refused =
             |k: usize, reason| Judgement::Refused(Refusal { variant: cast.members[k].variant, reason });
@@ -200,7 +200,7 @@ impl Results {
         (self.members.len(), Judgement::Accepted)
     }
 
-    /// How many of the first events have passed the tests on themselves.
+    /// Number of events, counted from the first without a gap, that have passed the tests on themselves.
     fn passed(&self) -> usize {
         let passes = |k: &usize| self.members.get(k).is_some_and(Result::is_ok);
         (0..self.members.len()).take_while(passes).count()

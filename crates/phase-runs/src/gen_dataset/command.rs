@@ -5,13 +5,14 @@ use crate::effort::{Effort, MindChoice};
 use phase_minds::{Foresight, MindKind};
 use phase_sim::Engine;
 
-/// How the command begins.
+/// Beginning of the command.
 const PROGRAM: &str = "phase gen-dataset ";
 
 impl Generation {
     /// The command line that makes this dataset anywhere, with its number of events and its seed.
     pub(super) fn command(&self, events: usize, seed: u64) -> String {
-        let (name, effort) = (&self.preset, self.effort.options());
+        let name = &self.preset;
+        let effort = self.effort.options();
         let no_video = if self.videos { "" } else { " --no-video" };
         let date = self.date_published.as_ref();
         let date = date.map_or_else(String::new, |date| format!(" --date-published {date}"));
@@ -70,7 +71,8 @@ mod tests {
                      --foresight exact --particles 4 --simulations 20 --max-steps 6 --no-video --date-published 2026-11-23";
         for command in [plain, every] {
             let generation = Generation::of_command(command).expect(command);
-            let (events, seed) = (generation.events.expect("events"), generation.seed.expect("a seed"));
+            let events = generation.events.expect("events");
+            let seed = generation.seed.expect("a seed");
             assert_eq!(generation.command(events, seed), command);
         }
         for command in [

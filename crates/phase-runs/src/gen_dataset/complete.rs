@@ -1,7 +1,8 @@
 //! Files written once all events of a dataset exist: everything that describes the whole.
 //!
-//! Records and events are read back from the folder one at a time, in two passes: the first counts, the second writes what
-//! lists them. So memory does not grow with the number of events. Code for further files of a dataset belongs here.
+//! Records and events are read back from the folder one at a time, in two passes: the first counts, the
+//! second writes what lists them. So memory does not grow with the number of events. Code for further files
+//! of a dataset belongs here.
 
 use crate::{error::RunError, gallery_writer::GalleryWriter, interrupt, listener::Listener, shortcuts};
 use phase_audit::{AuditItem, MAX_EVENTS, audit};
@@ -33,7 +34,7 @@ use std::{io::Write, path::Path};
 /// A dataset that is complete.
 #[derive(Debug)]
 pub struct Completed {
-    /// What it is.
+    /// Summary of the dataset.
     pub overview: Overview,
     /// SHA-256 of its manifest, in hexadecimal.
     pub digest: String,
@@ -54,8 +55,8 @@ pub fn complete(
     describe_all((out, out), overview, &whole.command, records, listener)
 }
 
-/// Writes the files that describe a dataset whose events have been counted into a folder; the events themselves are in another
-/// folder, or in the same. `overview` names no files yet.
+/// Writes the files that describe a dataset whose events have been counted into a folder; the events
+/// themselves are in another folder, or in the same. `overview` names no files yet.
 ///
 /// # Errors
 /// As [`complete`].
@@ -67,7 +68,8 @@ pub(crate) fn describe_all(
     listener: &dyn Listener,
 ) -> Result<Completed, RunError> {
     let progress = listener.progress_over("writing tables, page and manifest", overview.events);
-    let (preset, generator) = (overview.preset.clone(), overview.generator.clone());
+    let preset = overview.preset.clone();
+    let generator = overview.generator.clone();
     let gallery =
         Gallery { preset: &preset, generator: &generator, seed: overview.seed, events: overview.events };
     let mut pages = overview.videos.then(|| GalleryWriter::new(out, gallery));

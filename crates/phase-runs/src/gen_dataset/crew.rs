@@ -14,11 +14,13 @@ use std::{
     time::Instant,
 };
 
-/// Fills the slots with these numbers in the dataset, resuming where an earlier run stopped; `false` if interrupted. After every
-/// attempt that counts the slot's record is written, so no more is ever lost than what is under way.
+/// Fills the slots with these numbers in the dataset, resuming where an earlier run stopped; `false` if
+/// interrupted. After every attempt that counts the slot's record is written, so no more is ever lost than
+/// what is under way.
 ///
 /// # Errors
-/// [`RunError::Exhausted`] and any failure of sampling, simulating and writing; of several, that of the lowest slot.
+/// [`RunError::Exhausted`] and any failure of sampling, simulating and writing; of several, that of the
+/// lowest slot.
 pub(super) fn fill(slots: &Slots<'_>, indices: &[usize], threads: usize) -> Result<bool, RunError> {
     let board = Board {
         schedule: Schedule::new(indices.len(), slots.most_attempts(), threads),
@@ -45,7 +47,7 @@ struct Crew<'a> {
     changed: Condvar,
 }
 
-/// What all threads know. It is locked for moments only.
+/// State that all threads share. It is locked for moments only.
 struct Board {
     schedule: Schedule<Vec<Variant>>,
     in_hand: BTreeMap<usize, SlotInHand>,
@@ -59,7 +61,7 @@ struct Board {
 struct SlotInHand {
     begun: Instant,
     record: SlotRecord,
-    /// How many refusals the record on the disk has.
+    /// Number of refusals in the record on the disk.
     saved: Arc<Mutex<usize>>,
     under_way: BTreeMap<usize, Arc<Attempt>>,
     /// Results of attempts, until all attempts before them are refused.
@@ -80,7 +82,7 @@ struct Assignment {
 }
 
 impl Crew<'_> {
-    /// What each thread does: the next job, until there is none.
+    /// Does the next job until there is none, in each thread.
     fn work(&self) {
         // Others must not wait for a thread that has panicked.
         let _guard = StopOnPanic(self);
@@ -131,12 +133,14 @@ impl Crew<'_> {
             self.slots.report(&record, "kept");
             self.board().schedule.closed(slot);
         } else {
-            let (variants, refused) = (self.slots.variants(index), record.refused.len());
+            let variants = self.slots.variants(index);
+            let refused = record.refused.len();
             let mut board = self.board();
             let events = variants.len();
             board.schedule.opened(slot, variants, events, refused);
-            let (under_way, outcomes, saved) =
-                (BTreeMap::new(), BTreeMap::new(), Arc::new(Mutex::new(refused)));
+            let under_way = BTreeMap::new();
+            let outcomes = BTreeMap::new();
+            let saved = Arc::new(Mutex::new(refused));
             board
                 .in_hand
                 .insert(slot, SlotInHand { begun: Instant::now(), record, saved, under_way, outcomes });
@@ -225,7 +229,8 @@ impl Crew<'_> {
         if slot.record.refused.len() == before {
             return Ok(());
         }
-        let (record, saved) = (slot.record.clone(), Arc::clone(&slot.saved));
+        let record = slot.record.clone();
+        let saved = Arc::clone(&slot.saved);
         drop(guard);
         self.save(id.slot, &record, &saved)
     }

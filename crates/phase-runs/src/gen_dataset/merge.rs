@@ -18,11 +18,12 @@ use std::{
     path::{Path, PathBuf},
 };
 
-/// Combines all shards of a dataset, in any order, in a folder: new, empty, or of the same merge. The shards are unchanged; the
-/// result is the same, byte for byte, as that of a single run.
+/// Combines all shards of a dataset, in any order, in a folder: new, empty, or of the same merge. The shards
+/// are unchanged; the result is the same, byte for byte, as that of a single run.
 ///
 /// # Errors
-/// If a shard is missing or damaged, the folder cannot be used, a file cannot be written, or a stop was requested.
+/// If a shard is missing or damaged, the folder cannot be used, a file cannot be written, or a stop was
+/// requested.
 pub fn merge(shards: &[PathBuf], out: &Path, listener: &dyn Listener) -> Result<Generated, RunError> {
     let shards = Shards::read(shards)?;
     let whole = &shards.first().whole;

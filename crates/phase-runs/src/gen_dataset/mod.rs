@@ -2,8 +2,8 @@
 //!
 //! A dataset is a list of slots, each of which tries scenes until one shows its label ([`slot`]). The result
 //! of a slot depends only on the dataset's seed and the slot's number, so threads, interruptions and shards
-//! do not affect it. [`schedule`] decides what is done next, also ahead, and `crew` does it on several threads. When all slots
-//! are filled, [`mod@complete`] writes the files that describe the whole.
+//! do not affect it. [`schedule`] decides what is done next, also ahead, and `crew` does it on several
+//! threads. When all slots are filled, [`mod@complete`] writes the files that describe the whole.
 
 mod attempt;
 mod command;
@@ -38,18 +38,19 @@ use std::path::{Path, PathBuf};
 
 /// A dataset to be generated, or one shard of it.
 ///
-/// The same fields give the same files, byte for byte, on any machine and for any number of threads; so do shards that are
-/// merged. Interrupted, the same generation goes on from what is finished.
+/// The same fields give the same files, byte for byte, on any machine and for any number of threads; so do
+/// shards that are merged. Interrupted, the same generation goes on from what is finished.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Generation {
-    /// The name of a bundled preset, such as `demo` or `phase-500`, or a file in the format `phase-preset/3` whose name ends in
-    /// `.json`.
+    /// The name of a bundled preset, such as `demo` or `phase-500`, or a file in the format `phase-preset/3`
+    /// whose name ends in `.json`.
     pub preset: String,
     /// Number of events of the whole dataset, at least 1; without it the preset's.
     pub events: Option<usize>,
     /// Seed of the whole dataset; without it the preset's.
     pub seed: Option<u64>,
-    /// Folder for the dataset: new, empty, or of the same generation; without it one below `out`, named after preset and seed.
+    /// Folder for the dataset: new, empty, or of the same generation; without it one below `out`, named after
+    /// preset and seed.
     pub out: Option<PathBuf>,
     /// Whether events get videos, and the dataset a page to watch them.
     pub videos: bool,
@@ -70,11 +71,11 @@ pub struct Generated {
     pub folder: PathBuf,
     /// Number of its events.
     pub events: usize,
-    /// How it came to be there.
+    /// Origin of the dataset or shard: made now, or there before.
     pub outcome: Outcome,
 }
 
-/// How a dataset or shard came to be there.
+/// Origin of a dataset or shard: made now, or there before.
 #[derive(Debug)]
 pub enum Outcome {
     /// The whole dataset is made.
@@ -105,8 +106,8 @@ impl Generation {
     /// Generates the dataset, goes on with what an interrupted run has left of it, or finds that it is there.
     ///
     /// # Errors
-    /// If the preset or the folder cannot be used, no scene of a slot shows its label, a file cannot be written, or a stop was
-    /// requested.
+    /// If the preset or the folder cannot be used, no scene of a slot shows its label, a file cannot be
+    /// written, or a stop was requested.
     pub fn run(&self, listener: &dyn Listener) -> Result<Generated, RunError> {
         let plan = Plan::of(self)?;
         let out = self.out.clone().unwrap_or_else(|| plan.default_folder());
@@ -179,7 +180,7 @@ fn finished(out: &Path, slots: usize, expected: &Run) -> Result<Generated, RunEr
     keep_finished(out, &run, "dataset", description.events)
 }
 
-/// What a finished dataset says of itself, but for the command that made it.
+/// Description of a finished dataset, without the command that made it.
 pub(crate) fn description(manifest: &Manifest, slots: usize) -> DatasetDescription {
     DatasetDescription {
         preset: manifest.preset.clone(),

@@ -35,7 +35,7 @@ pub struct Plan {
     pub slot_count: usize,
     /// Seed of the whole dataset.
     pub seed: u64,
-    /// How events are simulated.
+    /// Settings of the simulation of events.
     pub settings: SimulationSettings,
     /// Whether events get videos.
     pub videos: bool,
@@ -66,7 +66,8 @@ impl Plan {
         let fingerprint = run::digest(&json!({
             "program": hexadecimal(&program()), "settings": settings_value, "seed": seed, "preset": text,
         }));
-        let (composition, shard) = (Composition::of(&preset), generation.shard);
+        let composition = Composition::of(&preset);
+        let shard = generation.shard;
         let slot_count = composition.slots(count).ok_or_else(|| {
             let rule =
                 "the last set would be incomplete; choose a number of events that is made up of whole sets";

@@ -18,12 +18,13 @@ use std::{
     sync::{Arc, Mutex, OnceLock, PoisonError},
 };
 
-/// Attempts on one stage before another is drawn: there are several assignments of roles and many seeds, and a stage that
-/// some variant rejects is a stage that the others of its block have alone.
+/// Attempts on one stage before another is drawn: there are several assignments of roles and many seeds, and
+/// a stage that some variant rejects is a stage that the others of its block have alone.
 const ATTEMPTS_PER_STAGE: usize = 3;
 /// Maximum number of stages kept.
 const MAX_STAGES: usize = 1000;
-/// Layouts from one block to the next. Coprime to the sizes of the pools of bundled presets: blocks that follow one another have different base layouts.
+/// Layouts from one block to the next. Coprime to the sizes of the pools of bundled presets: blocks that
+/// follow one another have different base layouts.
 const LAYOUT_STRIDE: usize = 11;
 
 /// A stage, or that there is none, once that is known.
@@ -53,14 +54,16 @@ impl<'a> Scenes<'a> {
         self.pools.get(name).map_or(&[][..], Vec::as_slice)
     }
 
-    /// The scene of an attempt, by the attempt's seed and number: with bodies of its own, or cast on the stage of its block.
+    /// The scene of an attempt, by the attempt's seed and number: with bodies of its own, or cast on the
+    /// stage of its block.
     ///
     /// # Errors
     /// If none can be drawn.
     pub(crate) fn scene(&self, slot: &EventSlot, seed: u64, number: usize) -> Result<Scene, SampleError> {
         let layouts = self.pool(&slot.layouts);
         let mut random = random::stream(seed, Purpose::Scene, 0);
-        let (variant, goal_index) = (slot.variant, slot.goal_index);
+        let variant = slot.variant;
+        let goal_index = slot.goal_index;
         let Some(place) = slot.block else {
             return phase_sampler::sample(&Request { variant, goal_index, layouts }, &mut random);
         };
@@ -82,7 +85,8 @@ impl<'a> Scenes<'a> {
         Contrast::sample(&request, &mut random::stream(seed, Purpose::Scene, 0))
     }
 
-    /// Puts the events of a set, which are in the order of its stances, in the order of their names, which reveals nothing.
+    /// Puts the events of a set, which are in the order of its stances, in the order of their names, which
+    /// reveals nothing.
     pub(crate) fn order<T>(&self, index: usize, members: &mut [T]) {
         let slot_seed = engine::event_seed(self.seed, index);
         members.shuffle(&mut random::stream(slot_seed, Purpose::Scene, 0));
@@ -112,7 +116,8 @@ impl<'a> Scenes<'a> {
         Stage::sample(&parts, &layouts, &mut random)
     }
 
-    /// The run's settings for the attempt with this seed at a slot, with a sampled length if the preset requires it.
+    /// The run's settings for the attempt with this seed at a slot, with a sampled length if the preset
+    /// requires it.
     pub(crate) fn settings(&self, relation: Relation, seed: u64, index: usize) -> SimulationSettings {
         let mut settings = self.settings;
         let slot = engine::event_seed(self.seed, index);

@@ -1,11 +1,13 @@
-//! What is done next, by whichever thread is free.
+//! Order of the work: the job that the next free thread takes.
 //!
-//! An attempt at a slot counts only if all earlier ones are refused. Each is nevertheless independent of the others, so attempts
-//! run ahead where threads would be idle otherwise, and so do the simulations within one. Everything that could be done has a
-//! chance that its result counts, estimated from the attempts so far; the likeliest comes first. Work that is certain to count
-//! comes before any other, and a new slot before work that is not, so nothing is wasted while there are enough slots.
+//! An attempt at a slot counts only if all earlier ones are refused. Each is nevertheless independent of the
+//! others, so attempts run ahead where threads would be idle otherwise, and so do the simulations within one.
+//! Everything that could be done has a chance that its result counts, estimated from the attempts so far; the
+//! likeliest comes first. Work that is certain to count comes before any other, and a new slot before work
+//! that is not, so nothing is wasted while there are enough slots.
 //!
-//! There are no threads, files or clocks here: the crew of `gen-dataset` follows the schedule with simulations. What counts does not depend on the order, so neither does the dataset.
+//! There are no threads, files or clocks here: the crew of `gen-dataset` follows the schedule with
+//! simulations. What counts does not depend on the order, so neither does the dataset.
 
 use core::ops::Range;
 use phase_model::AgentId;
@@ -25,7 +27,7 @@ pub struct AttemptId {
 pub enum Part {
     /// An event: the only one, or that of a set with this number.
     Member(usize),
-    /// The same event with an agent idle.
+    /// An event with one of its agents idle.
     Idle {
         /// Number of the event.
         member: usize,
@@ -50,13 +52,13 @@ pub enum Job {
 /// A simulation that an attempt may take.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Need {
-    /// Which.
+    /// The simulation.
     pub part: Part,
     /// Chance that it is needed if the events of the attempt pass all tests on themselves (0 to 1).
     pub share: f64,
 }
 
-/// How an attempt stands.
+/// State of an attempt.
 #[derive(Clone, PartialEq, Debug)]
 pub enum Standing {
     /// The first of these is certainly needed for a judgement, the others perhaps. Never empty.
@@ -67,16 +69,16 @@ pub enum Standing {
     Final,
 }
 
-/// How far an attempt has come.
+/// Progress of an attempt.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Progress {
     /// Events that have passed all tests on themselves.
     pub passed: usize,
-    /// How it stands.
+    /// State of the attempt.
     pub standing: Standing,
 }
 
-/// What follows from the progress of an attempt.
+/// Consequences of the progress of an attempt.
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
 pub struct Consequences {
     /// The attempts that are refused for good, since all before them are.
@@ -137,8 +139,8 @@ impl<C: Ord + Clone> Schedule<C> {
         }
     }
 
-    /// The most useful thing to begin now, which is then under way. `None` if there is nothing to do until something
-    /// under way is done.
+    /// The most useful thing to begin now, which is then under way. `None` if there is nothing to do until
+    /// something under way is done.
     #[allow(
         clippy::should_implement_trait,
         reason = "what it returns depends on what has been reported since"
@@ -168,7 +170,8 @@ impl<C: Ord + Clone> Schedule<C> {
         self.unopened.is_empty() && self.opening.is_empty() && self.open.is_empty()
     }
 
-    /// A slot has to be filled: its class, the number of its events, and how many attempts were refused in an earlier run.
+    /// A slot has to be filled: its class, the number of its events, and how many attempts were refused in an
+    /// earlier run.
     pub fn opened(&mut self, slot: usize, class: C, members: usize, refused: usize) {
         let new = OpenSlot {
             class,
@@ -242,7 +245,8 @@ impl<C> OpenSlot<C> {
         let mut chance = 1.0;
         for (&number, attempt) in &self.under_way {
             let id = AttemptId { slot, number };
-            let (mut members, mut compared) = (0, 0);
+            let mut members = 0;
+            let mut compared = 0;
             for need in &attempt.needs {
                 let needed = need.share * rates.passing(members) * rates.difference(compared);
                 match need.part {
@@ -278,7 +282,7 @@ impl<C> OpenSlot<C> {
     }
 }
 
-/// How often attempts of a class succeed.
+/// Numbers of attempts of a class that have passed each stage.
 #[derive(Clone, Copy, Debug, Default)]
 struct Rates {
     checked: u32,
@@ -288,8 +292,8 @@ struct Rates {
 }
 
 impl Rates {
-    /// Counts an attempt of which some events passed the tests on themselves. If all did, it was compared with what happens
-    /// without an agent; otherwise the next one failed.
+    /// Counts an attempt of which some events passed the tests on themselves. If all did, it was compared
+    /// with what happens without an agent; otherwise the next one failed.
     fn count(&mut self, passed: usize, members: usize, is_accepted: bool) {
         self.passed += passed as u32;
         self.checked += (passed + 1).min(members) as u32;

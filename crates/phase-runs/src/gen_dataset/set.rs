@@ -18,7 +18,8 @@ use phase_sampler::{SampleError, Stance};
 impl Slots<'_> {
     /// One scene in all its stances.
     pub(super) fn cast_set(&self, index: usize, slot: &SetSlot, seed: u64) -> Result<Cast, SampleError> {
-        let (stances, about) = (&slot.stances[..], slot.about);
+        let stances = &slot.stances[..];
+        let about = slot.about;
         let contrast = self.scenes.contrast(slot, seed)?;
         let member = |(&stance, scene): (&Stance, Scene)| {
             let settings = self.scenes.settings(scene.relation(), seed, index);
@@ -28,8 +29,8 @@ impl Slots<'_> {
         Ok(Cast { seed, changed: Some(contrast.changed), members, compared: true })
     }
 
-    /// Writes the files of a set: those of its events, and the video that shows them side by side. `changed` is the agent whose
-    /// stance differs, and `attempts` how many it took.
+    /// Writes the files of a set: those of its events, and the video that shows them side by side. `changed`
+    /// is the agent whose stance differs, and `attempts` how many it took.
     pub(super) fn keep_set(
         &self,
         id: &str,
@@ -43,7 +44,8 @@ impl Slots<'_> {
         for (k, (stance, event)) in events.iter().enumerate() {
             let entry = self.keep_event(&member_id(id, k), index, event)?;
             let set = Some(SetPlace { set: id.into(), stance: *stance });
-            let (variant, split) = (Some(stance.variant(slot.about)), slot.split);
+            let variant = Some(stance.variant(slot.about));
+            let split = slot.split;
             entries.push(EventEntry { variant, split, set, ..entry });
         }
         let events: Vec<&Event> = events.iter().map(|(_, event)| event).collect();

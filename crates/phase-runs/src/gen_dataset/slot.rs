@@ -1,4 +1,5 @@
-//! What fills a slot of a dataset: the scenes of its attempts, their simulation, and the files of what is accepted.
+//! Content of a slot of a dataset: the scenes of its attempts, their simulation, and the files of what is
+//! accepted.
 
 use super::{
     attempt::{Attempt, Cast, CastMember, Member},
@@ -71,7 +72,7 @@ impl<'a> Slots<'a> {
         self.plan.preset.id(index)
     }
 
-    /// Where the record of a slot is.
+    /// Path of the record of a slot.
     pub(super) fn record_path(&self, index: usize) -> PathBuf {
         record_path(self.plan, self.folder, index)
     }
@@ -95,7 +96,9 @@ impl<'a> Slots<'a> {
         let tried = if attempts == 1 { String::new() } else { format!(" at attempt {attempts}") };
         for entry in &record.entries {
             let variant = entry.variant.map_or("", Variant::name);
-            let (id, kind, length) = (&entry.id, entry.kind.name(), entry.steps);
+            let id = &entry.id;
+            let kind = entry.kind.name();
+            let length = entry.steps;
             self.event_writer.finished(0, &format!("{id} {kind}, {variant}: {length} steps{tried} ({how})"));
         }
     }
@@ -123,7 +126,8 @@ impl<'a> Slots<'a> {
         Ok(Cast { seed, changed: None, members, compared: self.plan.preset.selection.is_some() })
     }
 
-    /// Runs a simulation of an attempt, and adds it to its results; `false` if interrupted or no longer wanted.
+    /// Runs a simulation of an attempt, and adds it to its results; `false` if interrupted or no longer
+    /// wanted.
     pub(super) fn simulate(&self, index: usize, attempt: &Attempt, part: Part) -> Result<bool, RunError> {
         let Some(cast) = attempt.cast() else { return Ok(false) };
         let Some((scene, settings)) = cast.simulation(part) else { return Ok(false) };
@@ -201,9 +205,9 @@ impl<'a> Slots<'a> {
 /// The records of a run's slots, all of which are filled.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct FilledSlots<'a> {
-    /// What is generated.
+    /// Plan of the dataset that is generated.
     pub(super) plan: &'a Plan,
-    /// Where.
+    /// Folder of the dataset.
     pub(super) folder: &'a Folder,
 }
 
@@ -255,7 +259,8 @@ impl<'a> Watch<'a> {
     }
 }
 
-/// What is required of an event of a variant: its length (steps), and how it ends. One of a set may show its label in any manner.
+/// Requirements on an event of a variant: its length (steps), and its ending. One of a set may show its
+/// label in any manner.
 pub(crate) fn required(
     selection: &Selection,
     variant: Variant,

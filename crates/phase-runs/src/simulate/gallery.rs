@@ -6,7 +6,7 @@ use phase_event::Event;
 use phase_report::gallery::{Gallery, Timeline};
 use std::path::Path;
 
-/// What the page shows of one event.
+/// Parts of one event that the page shows.
 #[derive(Debug)]
 pub(super) struct Shown {
     entry: EventEntry,

@@ -1,4 +1,5 @@
-//! Simulation of the scenes of a `phase-events/1` file or of a folder, each from its first row and with one or several seeds.
+//! Simulation of the scenes of a `phase-events/1` file or of a folder, each from its first row and with one
+//! or several seeds.
 
 mod gallery;
 
@@ -79,7 +80,8 @@ impl Simulations {
     /// Simulates the scenes, goes on with what an interrupted run has left, or finds that they are there.
     ///
     /// # Errors
-    /// If the events or the folder cannot be used, a scene cannot be simulated, a file cannot be written, or a stop was requested.
+    /// If the events or the folder cannot be used, a scene cannot be simulated, a file cannot be written, or
+    /// a stop was requested.
     pub fn run(&self, listener: &dyn Listener) -> Result<Simulated, RunError> {
         let settings = self.effort.settings()?;
         let chosen = inputs(self, listener)?;
@@ -132,7 +134,8 @@ fn make(
     recording: &Recording,
     seed: u64,
 ) -> Result<Option<(MeasuredPair, Shown)>, RunError> {
-    let (id, out) = (simulated_id(simulations, recording, seed), &simulations.out);
+    let id = simulated_id(simulations, recording, seed);
+    let out = &simulations.out;
     let video = simulations.videos;
     let job = EventJob {
         id: id.clone(),

@@ -171,7 +171,8 @@ impl Dataset {
     }
 }
 
-/// A split in the digest of a dataset. These words are part of the digests in the training records of the bundled weights.
+/// A split in the digest of a dataset. These words are part of the digests in the training records of the
+/// bundled weights.
 const fn split_word(split: Option<Split>) -> &'static str {
     match split {
         Some(Split::Train) => "Some(Train)",

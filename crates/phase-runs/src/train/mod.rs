@@ -1,4 +1,5 @@
-//! Training of neural networks on datasets, round by round, so that the same training goes on after an interruption.
+//! Training of neural networks on datasets, round by round, so that the same training goes on after an
+//! interruption.
 
 mod events;
 mod network;

@@ -38,7 +38,8 @@ pub(super) fn run<N: PublishedNetwork>(
     };
     events.check()?;
     listener.note("reading the events");
-    let (training, validation) = (samples(Split::Train)?, samples(Split::Validation)?);
+    let training = samples(Split::Train)?;
+    let validation = samples(Split::Validation)?;
     let network = N::published(&mut TrainingRun::<N>::first_weights(options.seed)).map_err(failed)?;
     let mut run = TrainingRun::new(network, options.seed, settings);
     let sources = (events.source(Split::Train), events.source(Split::Validation));

@@ -73,7 +73,8 @@ struct Row {
 impl Row {
     fn line(&self) -> String {
         let Self { split, motion, rmse, rmse_of_constant, accuracy, accuracy_of_commonest } = self;
-        let (accuracy, most_common) = (100.0 * accuracy, 100.0 * accuracy_of_commonest);
+        let accuracy = 100.0 * accuracy;
+        let most_common = 100.0 * accuracy_of_commonest;
         format!(
             "| {split} | {motion} | {rmse:.1} | {rmse_of_constant:.1} | {accuracy:.1} % | {most_common:.1} % |\n"
         )
@@ -102,7 +103,8 @@ fn report(
     let windows = motions.iter().map(|motion| &*motion.windows).collect();
     let row = |(motion, groups)| {
         let Score { rmse, rmse_of_constant, accuracy, accuracy_of_guess } = score(regressor, groups, guess);
-        let (split, accuracy_of_commonest) = (split.name(), accuracy_of_guess);
+        let split = split.name();
+        let accuracy_of_commonest = accuracy_of_guess;
         Row { split, motion, rmse, rmse_of_constant, accuracy, accuracy_of_commonest }
     };
     [("whole events", whole), ("windows of 10 steps", windows)].map(row).into()

@@ -26,8 +26,8 @@ pub(super) struct TrainingFiles {
 }
 
 impl TrainingFiles {
-    /// Resumes an interrupted training or creates the files of a new one, so that an unwritable folder is reported
-    /// before the work.
+    /// Resumes an interrupted training or creates the files of a new one, so that an unwritable folder is
+    /// reported before the work.
     ///
     /// # Errors
     /// If there is a checkpoint of another training, or a file cannot be read or written.
@@ -42,7 +42,8 @@ impl TrainingFiles {
         let more_data = more.iter().map(|source| format!(" {} {}", source.sha256, source.events));
         let more_data: String = more_data.collect();
         let data = format!("{} {} {}{more_data}", training.sha256, training.events, validation.sha256);
-        let (checkpoint, file) = (beside(out, ".checkpoint"), beside(out, ".training.json"));
+        let checkpoint = beside(out, ".checkpoint");
+        let file = beside(out, ".training.json");
         let record = TrainingRecord::new(run, training, more, validation);
         [out, checkpoint.as_path(), file.as_path()].into_iter().for_each(atomic::remove_abandoned);
         let mut training_files = Self { checkpoint, file, record, data, last: None };
@@ -63,8 +64,8 @@ impl TrainingFiles {
         Ok(training_files)
     }
 
-    /// Runs a round and records it. An interruption loses the current round and those of the last two seconds.
-    /// Also returns the duration of the round (s).
+    /// Runs a round and records it. An interruption loses the current round and those of the last two
+    /// seconds. Also returns the duration of the round (s).
     ///
     /// # Errors
     /// If training fails or a file cannot be written.
@@ -74,7 +75,8 @@ impl TrainingFiles {
         training: &[N::Sample],
         validation: &[N::Sample],
     ) -> Result<f64, TrainError> {
-        let (cpu, clock) = (processor_time(), Instant::now());
+        let cpu = processor_time();
+        let clock = Instant::now();
         let round = run.round(training, validation)?;
         let seconds = clock.elapsed().as_secs_f64();
         let cpu_seconds = processor_time().saturating_sub(cpu).as_secs_f64();
@@ -86,7 +88,8 @@ impl TrainingFiles {
         Ok(seconds)
     }
 
-    /// Writes the record of a training that is finished, whose weights are written, and removes the checkpoint.
+    /// Writes the record of a training that is finished, whose weights are written, and removes the
+    /// checkpoint.
     ///
     /// # Errors
     /// If a file cannot be written or removed.

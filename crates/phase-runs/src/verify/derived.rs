@@ -14,7 +14,8 @@ use phase_dataset::{
 use phase_files::{FileError, Problem, WriteError, checksum::FileEntry, json};
 use std::{collections::BTreeMap, path::Path};
 
-/// The files that differ from what the event files, the manifest's list of events and the command in the card give.
+/// The files that differ from what the event files, the manifest's list of events and the command in the card
+/// give.
 ///
 /// # Errors
 /// [`RunError::Output`] if nothing can be written into the system's folder for temporary files.
@@ -35,7 +36,8 @@ pub(super) fn problems(
     let files = again.overview.files.iter().map(|file| file.path.as_str());
     let mut found = Vec::new();
     for name in files.chain([DIGEST_FILE, MANIFEST_FILE]) {
-        let (there, here) = (FileEntry::of(folder, name)?, FileEntry::of(scratch.path(), name)?);
+        let there = FileEntry::of(folder, name)?;
+        let here = FileEntry::of(scratch.path(), name)?;
         if there != here {
             found.push(differs(name));
         }
@@ -54,8 +56,8 @@ pub fn command(folder: &Path) -> Result<Option<String>, FileError> {
     Ok(command.map(String::from))
 }
 
-/// Writes the files that describe the events of a manifest, itself among them, from the event files in one folder into another, or
-/// into the same.
+/// Writes the files that describe the events of a manifest, itself among them, from the event files in one
+/// folder into another, or into the same.
 ///
 /// # Errors
 /// If an event cannot be read or a file cannot be written.

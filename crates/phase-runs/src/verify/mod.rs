@@ -26,15 +26,15 @@ use std::{
     path::{Path, PathBuf},
 };
 
-/// What is checked beside the files themselves.
+/// Checks that are made beside the files themselves.
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
 pub struct Checks {
     /// SHA-256 of the manifest in hexadecimal, from a trusted place: with it no change at all goes unnoticed.
     pub digest: Option<String>,
-    /// Whether to derive again what follows from the recorded actions and from the preset: motion in the engine named, labels,
-    /// scenes, seeds and splits, videos, and every file that describes the whole.
+    /// Whether to derive again what follows from the recorded actions and from the preset: motion in the
+    /// engine named, labels, scenes, seeds and splits, videos, and every file that describes the whole.
     pub replay: bool,
-    /// How many events to simulate again, thoughts and all.
+    /// Number of events to simulate again, thoughts and all.
     pub resimulate: Option<usize>,
     /// Seed of the choice of these events.
     pub resimulate_seed: u64,
@@ -45,7 +45,8 @@ pub struct Checks {
 /// Opens a finished dataset for [`problems`]: its manifest.
 ///
 /// # Errors
-/// [`RunError::Unfinished`], [`RunError::Usage`] if there is no manifest, or a [`RunError::File`] if it cannot be used.
+/// [`RunError::Unfinished`], [`RunError::Usage`] if there is no manifest, or a [`RunError::File`] if it
+/// cannot be used.
 pub fn open(folder: &Path) -> Result<Manifest, RunError> {
     match folder::inspect(folder, MANIFEST_FILE) {
         Ok(Contents::Finished) => Ok(manifest(folder)?),
@@ -77,7 +78,8 @@ pub fn manifest(folder: &Path) -> Result<Manifest, FileError> {
 /// Everything that is wrong with a dataset. Deeper checks are made of what no cheaper one has found wrong.
 ///
 /// # Errors
-/// [`RunError::Threads`], [`RunError::Interrupted`], or if nothing can be written into the system's folder for temporary files.
+/// [`RunError::Threads`], [`RunError::Interrupted`], or if nothing can be written into the system's folder
+/// for temporary files.
 pub fn problems(
     folder: &Path,
     manifest: &Manifest,

@@ -1,4 +1,5 @@
-//! What a dataset's preset and seed make of each of its events: variant, split, seed, scene, and that the event shows its label.
+//! Properties that a dataset's preset and seed give to each of its events: variant, split, seed, scene, and
+//! that the event shows its label.
 
 use super::{Checks, derived::command};
 use crate::{
@@ -28,7 +29,7 @@ pub(super) struct Origin {
     slots: Vec<Slot>,
 }
 
-/// What the manifest's list of events says about one event of the plan.
+/// Entry of the manifest's list of events for one event of the plan.
 struct Slot {
     index: usize,
     /// The place among the events of a set, in the order of their names.
@@ -57,7 +58,8 @@ impl Origin {
             Err(rule) => return Err(vec![differs(CARD_FILE, rule)]),
         };
         let slots = plan.slot_count;
-        let (found, expected) = (run_of(&description(manifest, slots), None), plan.run());
+        let found = run_of(&description(manifest, slots), None);
+        let expected = plan.run();
         if let Some(difference) = expected.difference(found.value()) {
             return Err(vec![differs(CARD_FILE, format!("the manifest, which has {difference}"))]);
         }
@@ -72,7 +74,7 @@ impl Origin {
         Scenes::of(&self.plan)
     }
 
-    /// What in the manifest is not what the plan says, beside single events.
+    /// Differences of the manifest from the plan, beside those of single events.
     fn whole(&self, manifest: &Manifest) -> Vec<String> {
         let mut rules = Vec::new();
         if self.slots.len() != manifest.events.len() {
@@ -100,7 +102,8 @@ impl Origin {
         let scenes = self.scenes();
         let firsts = self.slots.iter().zip(&manifest.events).filter(|(slot, _)| slot.member == 0);
         let wrong = firsts.filter_map(|(slot, entry)| {
-            let (id, plan) = (self.plan.preset.id(slot.index), self.plan.composition.set(slot.index)?);
+            let id = self.plan.preset.id(slot.index);
+            let plan = self.plan.composition.set(slot.index)?;
             let found = manifest.sets.iter().find(|set| set.id == id)?;
             // Those without a number, or without a scene, are reported as events.
             let number = self.attempt(slot.index, entry.seed)?;
@@ -120,7 +123,8 @@ impl Origin {
         if self.plan.composition.set(slot.index).is_some() { member_id(&id, slot.member) } else { id }
     }
 
-    /// Whether as many attempts are stated for each variant as the seeds of its events tell. Reasons are taken on trust.
+    /// Whether as many attempts are stated for each variant as the seeds of its events tell. Reasons are
+    /// taken on trust.
     fn attempts(&self, manifest: &Manifest) -> Option<String> {
         let mut tally: BTreeMap<Variant, (usize, usize)> = BTreeMap::new();
         for (slot, entry) in self.slots.iter().zip(&manifest.events) {
@@ -197,7 +201,8 @@ impl Origin {
     }
 }
 
-/// The plan of the command in the card: an error if there is no such command, an inner one if there is no such preset here.
+/// The plan of the command in the card: an error if there is no such command, an inner one if there is no
+/// such preset here.
 fn plan(folder: &Path, checks: &Checks) -> Result<Result<Plan, RunError>, String> {
     let text = command(folder).map_err(|error| error.to_string())?;
     let text = text.ok_or("a card, which has the command that made the dataset")?;

@@ -1,4 +1,5 @@
-//! Deriving again what an event's file says: its motion from its actions, its video from its motion, and all of it from its seed.
+//! Deriving again what an event's file says: its motion from its actions, its video from its motion, and all
+//! of it from its seed.
 
 use super::{Checks, derived, origin::Origin};
 use crate::{
@@ -182,7 +183,8 @@ impl<'a> Recorded<'a> {
         }
     }
 
-    /// Whether the motion is that of the actions in the engine that the settings name, from the start of the scene.
+    /// Whether the motion is that of the actions in the engine that the settings name, from the start of the
+    /// scene.
     fn check_motion(&self, settings: &SimulationSettings) -> Result<(), FileError> {
         let Event { scene, initial, steps, .. } = &self.simulation.event;
         let physics = scene.physics();
@@ -200,13 +202,15 @@ impl<'a> Recorded<'a> {
         }
         let length = steps.len();
         if length > settings.max_steps || length < settings.min_steps.min(settings.max_steps) {
-            let (min, max) = (settings.min_steps, settings.max_steps);
+            let min = settings.min_steps;
+            let max = settings.max_steps;
             return Err(self.fail("trajectory", format!("has {length} steps, not {min} to {max}")));
         }
         Ok(())
     }
 
-    /// Whether thoughts can be those of minds with these settings: how often particles and simulations are counted.
+    /// Whether thoughts can be those of minds with these settings: how often particles and simulations are
+    /// counted.
     fn check_thoughts(&self, settings: &SimulationSettings) -> Result<(), FileError> {
         for (number, step) in (1..).zip(&self.simulation.event.steps) {
             for (agent, thought) in step.thoughts.iter().enumerate() {
