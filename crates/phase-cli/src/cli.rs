@@ -30,7 +30,7 @@ use clap::{Parser, Subcommand};
 #[derive(Parser, Debug)]
 #[command(name = "phase", version)]
 pub struct Cli {
-    /// What to do.
+    /// Command to carry out.
     #[command(subcommand)]
     pub command: Command,
     /// Verbosity.
@@ -38,7 +38,7 @@ pub struct Cli {
     pub verbosity: Verbosity,
 }
 
-/// What to do.
+/// Command to carry out.
 #[derive(Subcommand, Debug)]
 pub enum Command {
     /// Write an initial scene, with comments, for simulate

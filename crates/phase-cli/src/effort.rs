@@ -13,7 +13,7 @@ use phase_runs::{
 };
 use phase_sim::{Engine, SimulationSettings};
 
-/// Which minds agents have.
+/// Choice of the minds that agents have.
 #[derive(Args, Clone, Copy, Debug, Default)]
 pub struct MindOptions {
     /// Minds of the agents: `phase`, or `published`, those of the published simulator [default: phase]
@@ -37,11 +37,12 @@ pub struct SimulationOptions {
     /// uses, closest to the published simulator) [default: world]
     #[arg(long, value_name = "ENGINE", hide_possible_values = true, value_parser = engines())]
     pub engine: Option<Engine>,
-    /// Which minds.
+    /// Minds of the agents.
     #[command(flatten)]
     pub minds: MindOptions,
-    /// Dynamics in the agents' search: `coarse`, or `exact`, which takes several times as long, or `points`, in which
-    /// bodies pass through each other; published minds have dynamics of their own, or `points` [default: coarse]
+    /// Dynamics in the agents' search: `coarse`, or `exact`, which takes several times as long, or `points`,
+    /// in which bodies pass through each other; published minds have dynamics of their own, or `points`
+    /// [default: coarse]
     #[arg(long, value_name = "HOW", hide_possible_values = true, value_parser = foresights())]
     pub foresight: Option<Foresight>,
     /// Belief particles of each agent [default: 50]
@@ -56,7 +57,7 @@ pub struct SimulationOptions {
 }
 
 impl SimulationOptions {
-    /// What was asked for.
+    /// Effort that the options ask for.
     #[must_use]
     pub fn effort(&self) -> Effort {
         Effort {

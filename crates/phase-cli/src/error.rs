@@ -29,7 +29,7 @@ pub enum CliError {
     /// A value cannot be converted to JSON.
     #[error("{what} cannot be written as JSON: {source}")]
     Serialise {
-        /// What.
+        /// Name of the value.
         what: &'static str,
         /// Why.
         source: serde_json::Error,
@@ -49,7 +49,7 @@ pub enum CliError {
     NotWhole {
         /// The dataset.
         folder: PathBuf,
-        /// How many.
+        /// Number of problems.
         problems: usize,
     },
     /// A split breaks rules.
@@ -57,19 +57,19 @@ pub enum CliError {
     RulesBroken {
         /// The dataset.
         events: PathBuf,
-        /// How many.
+        /// Number of broken rules.
         broken: usize,
     },
     /// A neural network was requested from a program built without them.
     #[error("neural networks are needed, which this program was built without; {hint}")]
     NoNetworks {
-        /// What to do instead.
+        /// Advice on what to do instead.
         hint: &'static str,
     },
     /// Rating studies were requested from a program built without them.
     #[error("rating studies are needed, which this program was built without; {hint}")]
     NoStudies {
-        /// What to do instead.
+        /// Advice on what to do instead.
         hint: &'static str,
     },
     /// The configuration of a study cannot be used.
@@ -92,7 +92,7 @@ pub enum CliError {
     /// The server was requested from a program built without it.
     #[error("the server is needed, which this program was built without; {hint}")]
     NoServer {
-        /// What to do instead.
+        /// Advice on what to do instead.
         hint: &'static str,
     },
     /// The server cannot start or had to stop.

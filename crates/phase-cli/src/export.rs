@@ -16,9 +16,14 @@ pub struct Export {
     #[arg(long, value_name = "DIR")]
     pub out: PathBuf,
     /// Events in a tar file
-    #[arg(long, value_name = "N", default_value_t = 500, value_parser = value_parser!(u32).range(1..=1_000_000))]
+    #[arg(
+        long,
+        value_name = "N",
+        default_value_t = 500,
+        value_parser = value_parser!(u32).range(1..=1_000_000)
+    )]
     pub events_per_file: u32,
-    /// How the result is printed.
+    /// Form in which the result is printed.
     #[command(flatten)]
     pub output: Output,
 }

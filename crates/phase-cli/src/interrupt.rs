@@ -10,8 +10,8 @@ use std::sync::{
 /// Whether a program that this one is a part of listens for Ctrl-C.
 static LEFT_TO_HOST: AtomicBool = AtomicBool::new(false);
 
-/// Leaves Ctrl-C to the program that runs the commands of this one, such as Python: no handler is installed, and that program
-/// calls [`interrupt::request`].
+/// Leaves Ctrl-C to the program that runs the commands of this one, such as Python: no handler is installed,
+/// and that program calls [`interrupt::request`].
 pub fn leave_to_host() {
     LEFT_TO_HOST.store(true, Ordering::Relaxed);
 }

@@ -5,7 +5,7 @@ use clap::Args;
 use serde::Serialize;
 use std::fmt::Display;
 
-/// How the result is printed.
+/// Form in which the result is printed.
 #[derive(Args, Clone, Copy, Debug, Default)]
 pub struct Output {
     /// Print the result as one JSON object on stdout, and nothing else there

@@ -23,7 +23,8 @@ pub struct Playground {
 /// Runs the command.
 ///
 /// # Errors
-/// [`CliError::Usage`] if there is no WebAssembly, [`CliError::File`] if it cannot be read, [`CliError::Output`] if a file cannot be written.
+/// [`CliError::Usage`] if there is no WebAssembly, [`CliError::File`] if it cannot be read,
+/// [`CliError::Output`] if a file cannot be written.
 pub fn run(arguments: &Playground, context: &Context) -> Result<(), CliError> {
     let out = &arguments.out;
     let given = arguments.wasm.as_deref().map(read_wasm).transpose()?;

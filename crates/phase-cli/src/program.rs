@@ -31,7 +31,7 @@ pub trait Failure: Error {
 /// A command line that failed.
 #[derive(Debug)]
 pub struct Failed {
-    /// What the problem is: one sentence, or the help for a line without a command.
+    /// Sentence that says what the problem is, or the help for a line without a command.
     pub sentence: String,
     /// The causes of it, nearest first.
     pub causes: Vec<String>,

@@ -1,4 +1,5 @@
-//! Progress of a run: a bar with the remaining time on a terminal; elsewhere a line for each event, or now and then.
+//! Progress of a run: a bar with the remaining time on a terminal; elsewhere a line for each event, or now
+//! and then.
 
 use crate::console::print_message;
 use indicatif::{ProgressBar, ProgressState, ProgressStyle};
@@ -14,9 +15,9 @@ use std::{
 
 /// The bar. The part that may be cut to the width of the terminal comes last.
 const TEMPLATE: &str = "{bar:16} {percent:>3} %{times} · {wide_msg}";
-/// How often the bar is drawn again while nothing happens.
+/// Time after which the bar is drawn again while nothing happens.
 const TICK: Duration = Duration::from_millis(500);
-/// How often there is a line where there is no terminal and no event is reported.
+/// Time between lines where there is no terminal and no event is reported.
 const BETWEEN_LINES: Duration = Duration::from_secs(30);
 
 /// Progress on stderr, from the first moment on: the current activity, and how much of it is done. The bar is
@@ -59,7 +60,8 @@ impl Lines {
     }
 }
 
-/// What a line says where there is no terminal: how much of `steps` is done, and the time that took and will take.
+/// Text of a line where there is no terminal: how much of `steps` is done, and the time that took and will
+/// take.
 #[must_use]
 pub fn line(activity: &str, done: usize, steps: usize, elapsed: Duration) -> String {
     let share = (done as f64 / steps.max(1) as f64).min(1.0);

@@ -1,4 +1,5 @@
-//! The option `--shard`: which part of the work to do, given or taken from the environment of a cluster's scheduler.
+//! The option `--shard`: which part of the work to do, given or taken from the environment of a cluster's
+//! scheduler.
 
 /// Variables of schedulers that number their tasks.
 const SLURM_TASK: &str = "SLURM_ARRAY_TASK_ID";
@@ -48,14 +49,15 @@ fn parse(text: &str, variable: impl Fn(&str) -> Option<String>) -> Result<(usize
     }
 }
 
-/// The task's number from 0 and, where the scheduler tells, how many tasks there are. `counted`: whether the user gives how
-/// many there are.
+/// The task's number from 0 and, where the scheduler tells, how many tasks there are. `counted`: whether the
+/// user gives how many there are.
 fn task(
     number: impl Fn(&str) -> Result<Option<usize>, String>,
     counted: bool,
 ) -> Result<(usize, Option<usize>), String> {
     if let Some(id) = number(SLURM_TASK)? {
-        // Tasks that failed may be submitted again as a smaller array: their own numbers, from 1, are what stays.
+        // Tasks that failed may be submitted again as a smaller array: their own numbers, from 1, are what
+        // stays.
         if counted {
             return id.checked_sub(1).map(|index| (index, None)).ok_or_else(|| format!("{SLURM_TASK} is 0"));
         }

@@ -27,7 +27,7 @@ pub struct Splits {
     /// Random seed of the choices that the rules leave open, with --make
     #[arg(long, value_name = "S", default_value_t = 1)]
     pub seed: u64,
-    /// How the result is printed.
+    /// Form in which the result is printed.
     #[command(flatten)]
     pub output: Output,
 }
@@ -59,7 +59,11 @@ pub fn run(arguments: &Splits, context: &Context) -> Result<(), CliError> {
     let rules = splits::check(&items, &parts);
     let lines = rules.iter().map(line).collect::<Vec<_>>().join("\n");
     let text = format!("| rule | wanted | found | |\n|---|---|---|---|\n{lines}");
-    let each = |rule: &Rule| json!({ "rule": rule.what, "wanted": rule.wanted, "found": rule.found, "met": rule.met() });
+    let each = |rule: &Rule| {
+        json!({
+            "rule": rule.what, "wanted": rule.wanted, "found": rule.found, "met": rule.met(),
+        })
+    };
     let value = json!({
         "events": items.len(), "split": arguments.make, "rules": rules.iter().map(each).collect::<Vec<_>>(),
     });
@@ -82,7 +86,9 @@ fn events(arguments: &Splits, context: &Context) -> Result<(Vec<Item>, Option<Ve
     let item = |index: usize| {
         let recording = source.load(index)?;
         let scene = &recording.scene;
-        let (kind, goals, base) = (scene.kind, scene.goals(), scene.layout.base());
+        let kind = scene.kind;
+        let goals = scene.goals();
+        let base = scene.layout.base();
         Ok(Item { id: recording.id.clone(), kind, goals, base })
     };
     Ok(((0..source.len()).map(item).collect::<Result<_, CliError>>()?, None))

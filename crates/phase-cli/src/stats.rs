@@ -35,10 +35,10 @@ pub struct Stats {
     /// Also write the figures and plots (SVG) into this folder
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
-    /// How the result is printed.
+    /// Form in which the result is printed.
     #[command(flatten)]
     pub output: Output,
-    /// How many files at once.
+    /// Number of files at once.
     #[command(flatten)]
     pub jobs: Jobs,
 }
@@ -73,8 +73,11 @@ fn statistics(path: &Path, context: &Context) -> Result<(Statistics, Vec<Accepta
         return Ok((Statistics::of(&manifest), manifest.selection));
     }
     let source = EventInput::open(path, &[], context)?;
-    let (mut agents, mut layouts) = (Vec::new(), BTreeSet::new());
-    let (mut lengths, mut relations, mut kinds) = (BTreeMap::new(), BTreeMap::new(), BTreeMap::new());
+    let mut agents = Vec::new();
+    let mut layouts = BTreeSet::new();
+    let mut lengths = BTreeMap::new();
+    let mut relations = BTreeMap::new();
+    let mut kinds = BTreeMap::new();
     for index in 0..source.len() {
         let recording = source.load(index)?;
         let Scene { layout, kind, agents: specs, .. } = &recording.scene;
@@ -84,7 +87,9 @@ fn statistics(path: &Path, context: &Context) -> Result<(Statistics, Vec<Accepta
         *relations.entry(recording.relation).or_default() += 1;
         *kinds.entry(*kind).or_default() += 1;
     }
-    let (events, goals, layouts) = (source.len(), goal_counts(agents), layouts.len());
+    let events = source.len();
+    let goals = goal_counts(agents);
+    let layouts = layouts.len();
     Ok((Statistics { events, lengths, goals, relations, kinds, layouts, parts: None }, Vec::new()))
 }
 

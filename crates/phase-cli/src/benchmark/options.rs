@@ -15,18 +15,24 @@ pub struct Benchmark {
     /// Also evaluate on these recordings (a phase-events/1 file, or a folder of events)
     #[arg(long, value_name = "FILE|DIR")]
     pub real: Option<PathBuf>,
-    /// How people rated the relations of the recordings (phase-ratings/1; see docs/formats.md)
+    /// Ratings by people of the relations of the recordings (phase-ratings/1; see docs/formats.md)
     #[arg(long, value_name = "FILE", requires = "real")]
     pub ratings: Option<PathBuf>,
-    /// Also evaluate goals on this dataset of sets, such as phase-pairs; not the variants of SIMPLE and not --trained
+    /// Also evaluate goals on this dataset of sets, such as phase-pairs; not the variants of SIMPLE and not
+    /// --trained
     #[arg(long, value_name = "DIR")]
     pub pairs: Option<PathBuf>,
     /// Only these methods, such as simple,arg,stgat [default: all]
-    #[arg(long, value_name = "METHODS", value_delimiter = ',', value_parser = PossibleValuesParser::new(METHODS))]
+    #[arg(
+        long,
+        value_name = "METHODS",
+        value_delimiter = ',',
+        value_parser = PossibleValuesParser::new(METHODS)
+    )]
     pub methods: Vec<String>,
-    /// Minds that SIMPLE imagines, and no others: `phase`, or `published`, those of the published simulator, with bodies that
-    /// turn one way in recordings [default: `simple` averages over both, `simple-published` has published minds, the
-    /// other variants ours]
+    /// Minds that SIMPLE imagines, and no others: `phase`, or `published`, those of the published simulator,
+    /// with bodies that turn one way in recordings [default: `simple` averages over both, `simple-published`
+    /// has published minds, the other variants ours]
     #[arg(long, value_name = "MINDS", hide_possible_values = true, value_parser = mind_kinds())]
     pub minds: Option<MindKind>,
     /// Also evaluate networks with these weights, as `train` writes them, and show how they improve with the
@@ -49,16 +55,17 @@ pub struct Benchmark {
     /// Folder for the report; new, empty, or of a benchmark, which is overwritten
     #[arg(long, value_name = "DIR", default_value = "out/benchmark")]
     pub out: PathBuf,
-    /// Also write the figures that documents show, a row on each line; `cargo xtask results` makes pages of them
+    /// Also write the figures that documents show, a row on each line; `cargo xtask results` makes pages of
+    /// them
     #[arg(long, value_name = "FILE", conflicts_with = "shard")]
     pub figures: Option<PathBuf>,
-    /// Which part of the events, and the parts that are merged.
+    /// Part of the events, and the parts that are merged.
     #[command(flatten)]
     pub parts: Parts,
-    /// How the result is printed.
+    /// Form in which the result is printed.
     #[command(flatten)]
     pub output: Output,
-    /// How many events at once.
+    /// Number of events at once.
     #[command(flatten)]
     pub jobs: Jobs,
 }

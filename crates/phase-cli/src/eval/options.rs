@@ -15,7 +15,7 @@ use phase_minds::MindKind;
 use phase_runs::eval::{Answers, Evaluation, methods};
 use std::path::PathBuf;
 
-/// What to evaluate.
+/// Task to evaluate.
 #[derive(Subcommand, Debug)]
 pub enum Eval {
     /// Task 1 of the paper: accuracy of recognised goals and relations
@@ -31,8 +31,8 @@ pub struct EvalGoals {
     #[arg(long, value_name = "METHOD", value_parser = PossibleValuesParser::new(methods::recognisers()),
           required_unless_present = "predictions")]
     pub method: Option<String>,
-    /// The weights of a neural network (safetensors, as `train` writes them) [default: those that come with the
-    /// program]
+    /// The weights of a neural network (safetensors, as `train` writes them) [default: those that come with
+    /// the program]
     #[arg(long, value_name = "FILE", conflicts_with = "predictions")]
     pub weights: Option<PathBuf>,
     /// The minds that SIMPLE imagines.
@@ -40,10 +40,16 @@ pub struct EvalGoals {
     pub minds: ImaginedMinds,
     /// Also ask the method after the given numbers of seconds of each event, such as 5,10,15,20; each takes
     /// as long again
-    #[arg(long, value_name = "SECONDS", value_delimiter = ',', value_parser = seconds, conflicts_with = "predictions")]
+    #[arg(
+        long,
+        value_name = "SECONDS",
+        value_delimiter = ',',
+        value_parser = seconds,
+        conflicts_with = "predictions"
+    )]
     pub watched: Vec<f64>,
-    /// How people rated the relations of the events (phase-ratings/1; see docs/formats.md): also report how closely the method's
-    /// probabilities agree with them
+    /// Ratings by people of the relations of the events (phase-ratings/1; see docs/formats.md): also report
+    /// how closely the method's probabilities agree with them
     #[arg(long, value_name = "FILE")]
     pub ratings: Option<PathBuf>,
     /// Events and output.
@@ -58,8 +64,8 @@ pub struct EvalTrajectories {
     #[arg(long, value_name = "METHOD", value_parser = PossibleValuesParser::new(methods::FORECASTERS),
           required_unless_present = "predictions")]
     pub method: Option<String>,
-    /// The weights of a neural network (safetensors, as `train` writes them) [default: those that come with the
-    /// program]
+    /// The weights of a neural network (safetensors, as `train` writes them) [default: those that come with
+    /// the program]
     #[arg(long, value_name = "FILE", conflicts_with = "predictions")]
     pub weights: Option<PathBuf>,
     /// The minds that SIMPLE imagines.
@@ -73,7 +79,8 @@ pub struct EvalTrajectories {
 /// Options of both.
 #[derive(Args, Debug)]
 pub struct Common {
-    /// Score the answers in this file instead of asking a method (`events` as in results.json; see docs/formats.md)
+    /// Score the answers in this file instead of asking a method (`events` as in results.json; see
+    /// docs/formats.md)
     #[arg(long, value_name = "FILE", conflicts_with = "method")]
     pub predictions: Option<PathBuf>,
     /// A file in the format phase-events/1, or the folder of a dataset or of simulations
@@ -88,16 +95,17 @@ pub struct Common {
     /// Random seed of the method and the intervals
     #[arg(long, value_name = "S", default_value_t = 1)]
     pub seed: u64,
-    /// Print the results as one JSON object on stdout, and nothing else there; or, with a file, write them there too
+    /// Print the results as one JSON object on stdout, and nothing else there; or, with a file, write them
+    /// there too
     #[arg(long, value_name = "FILE", num_args = 0..=1, default_missing_value = "-")]
     pub json: Option<PathBuf>,
     /// Folder for results and report; new, empty, or of the same run [default: out/eval/TASK-METHOD-EVENTS]
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
-    /// Which part of the events, and the parts that are merged.
+    /// Part of the events, and the parts that are merged.
     #[command(flatten)]
     pub parts: Parts,
-    /// How many events at once.
+    /// Number of events at once.
     #[command(flatten)]
     pub jobs: Jobs,
 }
@@ -105,12 +113,12 @@ pub struct Common {
 /// An evaluation in several parts, on as many machines.
 #[derive(Args, Clone, Debug, Default)]
 pub struct Parts {
-    /// Ask the method about the events K, K + N, K + 2 N … only, and report nothing. The same command with --merge instead
-    /// combines all parts. In a task of a job array K may be `auto`, as for gen-dataset
+    /// Ask the method about the events K, K + N, K + 2 N … only, and report nothing. The same command with
+    /// --merge instead combines all parts. In a task of a job array K may be `auto`, as for gen-dataset
     #[arg(long, value_name = "K/N", value_parser = shard)]
     pub shard: Option<(usize, usize)>,
-    /// Take the answers from the folders of all shards instead of asking the method. Results are those of a single run,
-    /// byte for byte
+    /// Take the answers from the folders of all shards instead of asking the method. Results are those of a
+    /// single run, byte for byte
     #[arg(long, value_name = "DIR", num_args = 1.., conflicts_with = "shard")]
     pub merge: Vec<PathBuf>,
 }
@@ -179,14 +187,16 @@ pub fn splits() -> impl TypedValueParser<Value = Split> {
     names.try_map(|name| Split::ALL.into_iter().find(|split| split.name() == name).ok_or("no such split"))
 }
 
-/// Which minds SIMPLE imagines.
+/// Minds that SIMPLE imagines.
 #[derive(Args, Clone, Copy, Debug, Default)]
 pub struct ImaginedMinds {
     /// Minds that SIMPLE imagines, and no others: `phase`, or `published`, those of the published simulator
-    /// [default: `simple` averages over both, `simple-published` has published minds, the other variants ours]
+    /// [default: `simple` averages over both, `simple-published` has published minds, the other variants
+    /// ours]
     #[arg(long, value_name = "MINDS", hide_possible_values = true, value_parser = mind_kinds())]
     pub minds: Option<MindKind>,
-    /// All turns of these minds go one way, as in the published recordings: left, and right in a reflected layout
+    /// All turns of these minds go one way, as in the published recordings: left, and right in a reflected
+    /// layout
     #[arg(long)]
     pub one_way_turns: bool,
 }

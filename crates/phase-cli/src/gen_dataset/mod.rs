@@ -1,4 +1,5 @@
-//! `gen-dataset` and `merge`: generate a dataset, or one shard of it, from a preset and a seed, and combine shards.
+//! `gen-dataset` and `merge`: generate a dataset, or one shard of it, from a preset and a seed, and combine
+//! shards.
 
 pub mod options;
 

@@ -9,9 +9,10 @@ use std::path::PathBuf;
 /// Options of `gen-dataset`.
 #[derive(Args, Debug)]
 pub struct GenDataset {
-    /// What to generate: demo (twelve events, two of each kind, without selection), phase-500 (the paper's
-    /// composition, selected), phase-500-v1 (the first edition's), phase-training (as many training events of the
-    /// same kind as requested), phase-pairs (sets that differ in one social variable), or a file in the format phase-preset/3 whose name ends in .json
+    /// Dataset to generate: demo (twelve events, two of each kind, without selection), phase-500 (the paper's
+    /// composition, selected), phase-500-v1 (the first edition's), phase-training (as many training events of
+    /// the same kind as requested), phase-pairs (sets that differ in one social variable), or a file in the
+    /// format phase-preset/3 whose name ends in .json
     #[arg(long, default_value = "demo")]
     pub preset: String,
     /// Number of events [default: the preset's]
@@ -26,7 +27,8 @@ pub struct GenDataset {
     /// Write no videos and no page, for training data
     #[arg(long)]
     pub no_video: bool,
-    /// The date of publication in croissant.json, YYYY-MM-DD [default: none, so that every run makes the same bytes]
+    /// The date of publication in croissant.json, YYYY-MM-DD [default: none, so that every run makes the same
+    /// bytes]
     #[arg(long, value_name = "DATE", value_parser = date)]
     pub date_published: Option<String>,
     /// Generate only the events K, K + N, K + 2 N … of the dataset, to be combined with the other shards by
@@ -34,13 +36,13 @@ pub struct GenDataset {
     /// jobs) and HyperQueue, or --shard auto for a whole Slurm array
     #[arg(long, value_name = "K/N", value_parser = shard)]
     pub shard: Option<(usize, usize)>,
-    /// How the result is printed.
+    /// Form in which the result is printed.
     #[command(flatten)]
     pub output: Output,
     /// Parameters of the agents.
     #[command(flatten)]
     pub effort: SimulationOptions,
-    /// How many threads.
+    /// Number of threads.
     #[command(flatten)]
     pub jobs: Jobs,
 }
@@ -70,7 +72,7 @@ pub struct Merge {
     /// Folder for the dataset; new, empty, or of the same merge
     #[arg(long, value_name = "DIR")]
     pub out: PathBuf,
-    /// How the result is printed.
+    /// Form in which the result is printed.
     #[command(flatten)]
     pub output: Output,
 }

@@ -1,7 +1,7 @@
 //! `new-scene`: a scene to start from, in a file with comments.
 //!
-//! JSON has no comments; the reader of `phase-events/1` ignores members whose names begin with `_`, so they are in one named
-//! `_comment`.
+//! JSON has no comments; the reader of `phase-events/1` ignores members whose names begin with `_`, so they
+//! are in one named `_comment`.
 
 pub mod options;
 mod text;
@@ -19,7 +19,8 @@ use serde_json::json;
 /// [`CliError::Usage`] if the file exists, [`CliError::NoScene`] if no scene of the kind fits the layout,
 /// [`CliError::Output`] if it cannot be written, [`CliError::Serialise`].
 pub fn run(arguments: &NewScene, context: &Context) -> Result<(), CliError> {
-    let (out, kind) = (&arguments.out, arguments.kind);
+    let out = &arguments.out;
+    let kind = arguments.kind;
     if out.exists() {
         return Err(CliError::Usage(format!("--out: {} exists; choose another file", out.display())));
     }
@@ -36,7 +37,8 @@ pub fn run(arguments: &NewScene, context: &Context) -> Result<(), CliError> {
         .print(format!("{} holds a {} scene; simulate it with\n{next}", out.display(), kind.name()), &value)
 }
 
-/// A scene of the kind, in the layout if one is given. The variants of the kind are tried in an order that the seed decides.
+/// A scene of the kind, in the layout if one is given. The variants of the kind are tried in an order that
+/// the seed decides.
 fn scene(arguments: &NewScene) -> Result<Scene, CliError> {
     let bases = arguments.layout.map_or_else(|| USED_BASES.to_vec(), |base| vec![base]);
     let layouts: Vec<Layout> = bases.into_iter().filter_map(|base| Layout::new(base, None).ok()).collect();
@@ -51,7 +53,8 @@ fn scene(arguments: &NewScene) -> Result<Scene, CliError> {
             Err(error) => failure = failure.or(Some(error)),
         }
     }
-    let (kind, layout) = (arguments.kind, arguments.layout.unwrap_or_default());
+    let kind = arguments.kind;
+    let layout = arguments.layout.unwrap_or_default();
     Err(failure.map_or_else(
         || CliError::Usage(format!("--kind {}: has no variants", kind.name())),
         |source| CliError::NoScene { layout, kind, source },

@@ -24,7 +24,7 @@ pub struct NewScene {
     /// File for the scene; it must not exist
     #[arg(long, value_name = "FILE", default_value = "scene.json")]
     pub out: PathBuf,
-    /// How the result is printed.
+    /// Form in which the result is printed.
     #[command(flatten)]
     pub output: Output,
 }

@@ -18,8 +18,10 @@ pub(super) fn file(id: &str, scene: &Scene, program: &str) -> Result<String, Cli
         |bodies: Vec<&Body>| list(&bodies.into_iter().map(|body| [row(body)]).collect::<Vec<_>>(), "      ");
     let agent_rows = starts(scene.agents.iter().map(|agent| &agent.start).collect())?;
     let object_rows = starts(scene.objects.iter().map(|object| &object.start).collect())?;
-    let (id, layout) = (line(&id)?, line(&scene.layout)?);
-    let (kind, columns) = (line(&scene.kind)?, line(&COLUMNS)?);
+    let id = line(&id)?;
+    let layout = line(&scene.layout)?;
+    let kind = line(&scene.kind)?;
+    let columns = line(&COLUMNS)?;
     Ok(format!(
         "{{\n\"format\": \"{FILE_FORMAT}\",\n\"events\": [\n  {{\n    \"_comment\": {comment},\n    \"id\": {id},\n    \
          \"event\": {kind},\n    \"layout\": {layout},\n    \"agents\": {agents},\n    \"objects\": {objects},\n    \

@@ -75,7 +75,7 @@ struct Rendered {
     file: PathBuf,
     /// Whether its frames between the recorded steps are interpolated.
     interpolated: bool,
-    /// What an observer made of it.
+    /// Course of an observer's inference about it.
     #[serde(skip_serializing_if = "Option::is_none")]
     observer: Option<ObserverCourse>,
 }
@@ -188,7 +188,8 @@ fn render(
     path: &Path,
     watched: Option<&[Watched]>,
 ) -> Result<bool, RunError> {
-    let (id, physics) = (&recording.id, recording.scene.physics());
+    let id = &recording.id;
+    let physics = recording.scene.physics();
     let palette = arguments.palette.palette();
     let minds: Vec<Vec<BeliefFrame>> = match (arguments.belief, &recording.simulation) {
         (None, _) => Vec::new(),
@@ -241,7 +242,8 @@ fn render(
 
 /// An event that was not simulated does not contain its agents' beliefs.
 fn unsimulated(arguments: &Render, id: &str) -> RunError {
-    let (file, rule) = (arguments.file.display(), "--belief needs a simulated event");
+    let file = arguments.file.display();
+    let rule = "--belief needs a simulated event";
     let why = "a measured recording does not tell what its agents saw and did";
     RunError::Usage(format!("{file}: event {id}: {rule}; {why}"))
 }
@@ -260,7 +262,7 @@ fn settings(
     })
 }
 
-/// What an agent saw, believed and pursued at every step.
+/// Views of an agent: what it saw, believed and pursued at every step.
 fn minds(
     simulation: &SimulationRecord,
     agent: AgentId,

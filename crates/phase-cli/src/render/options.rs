@@ -26,8 +26,9 @@ pub struct Render {
     /// (simulated events only)
     #[arg(long, value_name = "AGENT")]
     pub belief: Option<Belief>,
-    /// Show below the picture what SIMPLE makes of the event while it watches it: goals, relation, who helps or hinders whom, and how
-    /// people would report it; and write all of it to a file ending in .observer.json beside the video
+    /// Show below the picture what SIMPLE makes of the event while it watches it: goals, relation, who helps
+    /// or hinders whom, and how people would report it; and write all of it to a file ending in
+    /// .observer.json beside the video
     #[arg(long, conflicts_with = "belief")]
     pub observer: bool,
     /// Random seed of the observer
@@ -39,10 +40,10 @@ pub struct Render {
     /// Instead of a video, one picture of N frames evenly spaced over the event
     #[arg(long, value_name = "N", value_parser = value_parser!(u16).range(1..=100))]
     pub contact_sheet: Option<u16>,
-    /// How the result is printed.
+    /// Form in which the result is printed.
     #[command(flatten)]
     pub output: Output,
-    /// How many events at once.
+    /// Number of events at once.
     #[command(flatten)]
     pub jobs: Jobs,
 }

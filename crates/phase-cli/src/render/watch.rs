@@ -1,4 +1,4 @@
-//! What an observer makes of an event while it watches it, for `render --observer`.
+//! Inference of an observer about an event while it watches it, for `render --observer`.
 
 use core::ops::ControlFlow;
 use phase_event::{MethodError, Recording};
@@ -14,7 +14,7 @@ use std::time::Instant;
 
 /// Goals shown of each agent.
 const GOALS: usize = 2;
-/// What an observer says after some seconds.
+/// Statement of an observer after some seconds.
 #[derive(Clone, Debug, Serialize)]
 pub(super) struct Watched {
     /// Seconds of video watched.
@@ -38,8 +38,8 @@ pub(super) struct GoalShare {
     p: f64,
 }
 
-/// Watches an event to its end: what SIMPLE says at its first row and after each step. `interrupted` is asked between steps; if it
-/// says so, the result is `None`.
+/// Watches an event to its end: what SIMPLE says at its first row and after each step. `interrupted` is asked
+/// between steps; if it says so, the result is `None`.
 ///
 /// # Errors
 /// If the event cannot be observed or its minds not be simulated.

@@ -10,8 +10,8 @@ use options::Serve;
 /// Runs the command, until Ctrl-C or SIGTERM.
 ///
 /// # Errors
-/// [`CliError::NoServer`] where the program was built without the feature `serve`; [`CliError::Serve`], [`CliError::File`] or
-/// [`CliError::Usage`] for an address, scenes or WebAssembly that cannot be used.
+/// [`CliError::NoServer`] where the program was built without the feature `serve`; [`CliError::Serve`],
+/// [`CliError::File`] or [`CliError::Usage`] for an address, scenes or WebAssembly that cannot be used.
 #[cfg(not(feature = "serve"))]
 pub fn run(_: &Serve, context: &Context) -> Result<(), CliError> {
     Err(CliError::NoServer { hint: context.program.serve_hint })
@@ -20,7 +20,8 @@ pub fn run(_: &Serve, context: &Context) -> Result<(), CliError> {
 /// Runs the command, until Ctrl-C or SIGTERM.
 ///
 /// # Errors
-/// [`CliError::Serve`], [`CliError::File`] or [`CliError::Usage`] for an address, scenes or WebAssembly that cannot be used.
+/// [`CliError::Serve`], [`CliError::File`] or [`CliError::Usage`] for an address, scenes or WebAssembly that
+/// cannot be used.
 #[cfg(feature = "serve")]
 pub fn run(arguments: &Serve, context: &Context) -> Result<(), CliError> {
     use crate::{console::print_result, playground::read_wasm};

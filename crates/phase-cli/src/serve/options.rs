@@ -8,23 +8,32 @@ use std::{net::SocketAddr, path::PathBuf};
 /// Options of `serve`.
 #[derive(Args, Debug)]
 pub struct Serve {
-    /// Where to listen: address and port. Others than the loopback interface can be reached from outside
+    /// Address and port to listen on. Others than the loopback interface can be reached from outside
     #[arg(long, value_name = "ADDRESS", default_value = "127.0.0.1:8017")]
     pub listen: SocketAddr,
-    /// Name of this server for others, such as lab.example.org; requests by names that it does not have are refused
+    /// Name of this server for others, such as lab.example.org; requests by names that it does not have are
+    /// refused
     #[arg(long, value_name = "HOST")]
     pub host: Option<String>,
     /// A proxy in front of this server tells who asks (X-Forwarded-For)
     #[arg(long)]
     pub behind_proxy: bool,
-    /// Folder for journals and recordings of games and for the answers of studies; a server that is started again goes on with what it finds there
+    /// Folder for journals and recordings of games and for the answers of studies; a server that is started
+    /// again goes on with what it finds there
     #[arg(long, value_name = "DIR", default_value = "out/serve")]
     pub out: PathBuf,
-    /// Scenes to play: a phase-events/1 file or the folder of a dataset [default: 24 sampled scenes, four of each kind]
+    /// Scenes to play: a phase-events/1 file or the folder of a dataset [default: 24 sampled scenes, four of
+    /// each kind]
     #[arg(long, value_name = "PATH")]
     pub scenes: Option<PathBuf>,
     /// Only the dataset's events of this split: train, validation or test
-    #[arg(long, value_name = "SPLIT", hide_possible_values = true, requires = "scenes", value_parser = splits())]
+    #[arg(
+        long,
+        value_name = "SPLIT",
+        hide_possible_values = true,
+        requires = "scenes",
+        value_parser = splits()
+    )]
     pub split: Option<Split>,
     /// Scenes of a game after the practice; those that were played least come first
     #[arg(long, value_name = "N", default_value_t = 5, value_parser = value_parser!(u16).range(1..=1000))]
@@ -38,7 +47,8 @@ pub struct Serve {
     /// Only who has the admin token opens games
     #[arg(long)]
     pub invite_only: bool,
-    /// Agents keep their velocity from step to step, as in simulations; in the paper's game they are stopped after each step
+    /// Agents keep their velocity from step to step, as in simulations; in the paper's game they are stopped
+    /// after each step
     #[arg(long)]
     pub inertia: bool,
     /// A rating study (phase-study/1); may be given several times. Its page is /study/NAME/

@@ -1,4 +1,5 @@
-//! `simulate`: the scenes of a `phase-events/1` file or of a folder, each from its first row and with one or several seeds.
+//! `simulate`: the scenes of a `phase-events/1` file or of a folder, each from its first row and with one or
+//! several seeds.
 
 pub mod options;
 mod outcomes;

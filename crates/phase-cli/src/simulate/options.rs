@@ -20,8 +20,9 @@ pub struct Simulate {
     /// Simulate every scene with the seeds S to S + N - 1; with more than one, ids end in -seedK
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = value_parser!(u16).range(1..=10_000))]
     pub seeds: u16,
-    /// Give all events of the file the same random numbers: the seed of each is drawn from S alone, and not also from the
-    /// event's place in the file, so that scenes which differ in one thing (a goal, an attitude) differ in nothing else
+    /// Give all events of the file the same random numbers: the seed of each is drawn from S alone, and not
+    /// also from the event's place in the file, so that scenes which differ in one thing (a goal, an
+    /// attitude) differ in nothing else
     #[arg(long)]
     pub same_chance: bool,
     /// Make no videos and no page
@@ -30,13 +31,13 @@ pub struct Simulate {
     /// Folder for the results; new, empty, or of the same run
     #[arg(long, value_name = "DIR")]
     pub out: PathBuf,
-    /// How the result is printed.
+    /// Form in which the result is printed.
     #[command(flatten)]
     pub output: Output,
     /// Parameters of the agents.
     #[command(flatten)]
     pub effort: SimulationOptions,
-    /// How many events at once.
+    /// Number of events at once.
     #[command(flatten)]
     pub jobs: Jobs,
 }

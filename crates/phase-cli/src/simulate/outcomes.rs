@@ -7,7 +7,9 @@ use phase_model::{Attitude, Sign};
 pub(super) fn table(events: &[EventComparison]) -> String {
     let line = |event: &EventComparison| {
         let [first, second] = event.agents.each_ref().map(outcome);
-        let (id, kind, steps) = (&event.id, event.kind.name(), event.simulated_steps);
+        let id = &event.id;
+        let kind = event.kind.name();
+        let steps = event.simulated_steps;
         format!("| {id} | {kind} | {steps} | {first} | {second} |\n")
     };
     let lines = events.iter().map(line).collect::<String>();

@@ -48,7 +48,8 @@ pub(super) fn run(arguments: &CheckStudy, context: &Context) -> Result<(), CliEr
     }
     let judgements = u64::from(config.raters) * u64::from(config.videos_per_rater);
     let value = json!({
-        "file": arguments.config, "name": config.name, "form": config.form.name(), "videos": config.stimuli.len(),
+        "file": arguments.config, "name": config.name, "form": config.form.name(),
+        "videos": config.stimuli.len(),
         "sources": config.sources(), "catch_trials": config.catch_trials.len(), "raters": config.raters,
         "videos_per_rater": config.videos_per_rater, "raters_per_video": config.raters_per_video,
         "raters_per_video_at_most": config.raters_per_video_at_most, "judgements": judgements, "notes": notes,

@@ -7,7 +7,7 @@ use std::path::PathBuf;
 /// The experiments whose numbers a new study takes over.
 const EXPERIMENTS: [&str; 3] = ["experiment-1", "experiment-2", "relations"];
 
-/// What to do.
+/// Command of `study` to carry out.
 #[derive(Subcommand, Debug)]
 pub enum Study {
     /// Write the configuration of a study of some videos, with comments
@@ -23,12 +23,12 @@ pub enum Study {
 /// Options of `study new`.
 #[derive(Args, Debug)]
 pub struct NewStudy {
-    /// Whose form and numbers to take over: the paper's experiment-1 (types of interaction) or experiment-2 (goals, relation and
-    /// human-likeness), or the relations of Malik and Isik 2023
+    /// Whose form and numbers to take over: the paper's experiment-1 (types of interaction) or experiment-2
+    /// (goals, relation and human-likeness), or the relations of Malik and Isik 2023
     #[arg(long, value_name = "NAME", value_parser = PossibleValuesParser::new(EXPERIMENTS))]
     pub experiment: String,
-    /// Folder with videos, a finished dataset or .mp4 files, below that of --out; SOURCE, such as phase or human, tells folders
-    /// apart [default source: phase]
+    /// Folder with videos, a finished dataset or .mp4 files, below that of --out; SOURCE, such as phase or
+    /// human, tells folders apart [default source: phase]
     #[arg(long, value_name = "[SOURCE=]DIR", required = true)]
     pub videos: Vec<String>,
     /// File in the format phase-events/1 with the events that .mp4 files show, for their labels
@@ -41,12 +41,17 @@ pub struct NewStudy {
     #[arg(long = "catch", value_name = "ID=ANSWER")]
     pub catch_trials: Vec<String>,
     /// Seed of assignments and of --sample
-    #[arg(long, value_name = "S", default_value_t = 1, value_parser = value_parser!(u64).range(..=i64::MAX as u64))]
+    #[arg(
+        long,
+        value_name = "S",
+        default_value_t = 1,
+        value_parser = value_parser!(u64).range(..=i64::MAX as u64)
+    )]
     pub seed: u64,
     /// File for the configuration; it must not exist
     #[arg(long, value_name = "FILE", default_value = "study.json")]
     pub out: PathBuf,
-    /// How the result is printed.
+    /// Form in which the result is printed.
     #[command(flatten)]
     pub output: Output,
 }
@@ -57,7 +62,7 @@ pub struct CheckStudy {
     /// The configuration (phase-study/1)
     #[arg(value_name = "FILE")]
     pub config: PathBuf,
-    /// How the result is printed.
+    /// Form in which the result is printed.
     #[command(flatten)]
     pub output: Output,
 }
@@ -77,7 +82,7 @@ pub struct ExportStudy {
     /// Also export with which members of the address raters came, such as their Prolific ids
     #[arg(long)]
     pub external_ids: bool,
-    /// How the result is printed.
+    /// Form in which the result is printed.
     #[command(flatten)]
     pub output: Output,
 }
@@ -94,7 +99,7 @@ pub struct ReportStudy {
     /// Folder for the report
     #[arg(long, value_name = "DIR")]
     pub out: PathBuf,
-    /// How the result is printed.
+    /// Form in which the result is printed.
     #[command(flatten)]
     pub output: Output,
 }

@@ -129,7 +129,8 @@ fn relative(file: &Path, base: &Path) -> Result<String, CliError> {
             CliError::File(phase_files::FileError { file: path.to_owned(), problem })
         })
     };
-    let (file, base) = (absolute(file)?, absolute(base)?);
+    let file = absolute(file)?;
+    let base = absolute(base)?;
     let Ok(below) = file.strip_prefix(&base) else {
         return Err(CliError::Usage(format!(
             "--videos: {} does not lie below {}, the folder of --out",

@@ -6,7 +6,7 @@ use clap::{Args, Subcommand};
 use phase_runs::train::{Trainee, Training};
 use std::path::PathBuf;
 
-/// What to train.
+/// Network or model to train.
 #[derive(Subcommand, Debug)]
 pub enum Train {
     /// The strength regressor of SIMPLE
@@ -50,12 +50,12 @@ pub struct Options {
     /// Also evaluate the final weights on the test events
     #[arg(long)]
     pub test: bool,
-    /// How the result is printed.
+    /// Form in which the result is printed.
     #[command(flatten)]
     pub output: Output,
 }
 
-/// The same, with the maximum duration.
+/// Datasets and output, with the maximum duration.
 #[derive(Args, Debug)]
 pub struct NetworkOptions {
     /// Datasets and output.

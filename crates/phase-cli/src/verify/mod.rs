@@ -17,7 +17,8 @@ use serde_json::json;
 /// # Errors
 /// [`CliError::NotWhole`] if there is a problem; [`CliError::Run`] if there is no manifest to check against.
 pub fn run(arguments: &Verify, context: &Context) -> Result<(), CliError> {
-    let (folder, threads) = (&arguments.folder, arguments.jobs.given());
+    let folder = &arguments.folder;
+    let threads = arguments.jobs.given();
     let manifest = verify::open(folder)?;
     let digest = FileEntry::of(folder, MANIFEST_FILE)?.sha256;
     let checks = Checks::from(&arguments.checks);

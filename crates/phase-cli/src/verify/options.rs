@@ -11,33 +11,34 @@ pub struct Verify {
     /// Folder of a finished dataset
     #[arg(value_name = "DIR")]
     pub folder: PathBuf,
-    /// What is checked beside the files themselves.
+    /// Checks beside the files themselves.
     #[command(flatten)]
     pub checks: CheckOptions,
-    /// How the result is printed.
+    /// Form in which the result is printed.
     #[command(flatten)]
     pub output: Output,
-    /// How many files at once.
+    /// Number of files at once.
     #[command(flatten)]
     pub jobs: Jobs,
 }
 
-/// What is checked beside the files themselves.
+/// Checks beside the files themselves.
 #[derive(Args, Clone, Debug, Default)]
 pub struct CheckOptions {
-    /// SHA-256 of manifest.json, as gen-dataset and verify print it, from where you trust it: then no change at all goes
-    /// unnoticed
+    /// SHA-256 of manifest.json, as gen-dataset and verify print it, from where you trust it: then no change
+    /// at all goes unnoticed
     #[arg(long, value_name = "SHA256", value_parser = digest)]
     pub digest: Option<String>,
-    /// Derive again what follows from the recorded actions and from the preset: motion in the engine named, labels, scenes,
-    /// seeds and splits, videos, and every file that describes the whole. Takes about a second a video, and the same version of
-    /// the program that made the dataset
+    /// Derive again what follows from the recorded actions and from the preset: motion in the engine named,
+    /// labels, scenes, seeds and splits, videos, and every file that describes the whole. Takes about a
+    /// second a video, and the same version of the program that made the dataset
     #[arg(long)]
     pub replay: bool,
-    /// Simulate N events again, thoughts and all, and compare the bytes; `all` for all of them. Takes as long as making them
+    /// Simulate N events again, thoughts and all, and compare the bytes; `all` for all of them. Takes as long
+    /// as making them
     #[arg(long, value_name = "N", value_parser = amount)]
     pub resimulate: Option<usize>,
-    /// Which events --resimulate takes: another seed takes others
+    /// Choice of the events that --resimulate takes: another seed takes others
     #[arg(long, value_name = "S", default_value_t = 0, value_parser = value_parser!(u64))]
     pub resimulate_seed: u64,
     /// File of the preset for --replay, if it is not one that comes with the program

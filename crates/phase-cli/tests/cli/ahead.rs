@@ -9,8 +9,8 @@ use std::{
     process::{Command, Stdio},
 };
 
-/// Fewer slots than threads, of agents that search little: the first scenes often fail, before and after the comparison with an
-/// idle agent.
+/// Fewer slots than threads, of agents that search little: the first scenes often fail, before and after the
+/// comparison with an idle agent.
 const EVENTS: &str = r#"{
   "format": "phase-preset/3", "name": "events", "seed": 3,
   "layouts": {"open": [0, 2, 6]},
@@ -70,7 +70,8 @@ fn killed(path: &Path, out: &str, lines: usize) {
     child.wait().expect("it ends");
 }
 
-/// The records of a killed run: no attempt after one that is missing, and none that one thread would not have made.
+/// The records of a killed run: no attempt after one that is missing, and none that one thread would not have
+/// made.
 fn records(path: &Path) -> Vec<(PathBuf, usize)> {
     let refused = |bytes: &[u8]| {
         let record: serde_json::Value = serde_json::from_slice(bytes).expect("JSON");

@@ -84,7 +84,8 @@ fn merge_refuses_damaged_shards_and_goes_on_once_they_are_mended() {
     }
 }
 
-/// A merge that was killed after its last file is finished by the same command; another dataset is not overwritten.
+/// A merge that was killed after its last file is finished by the same command; another dataset is not
+/// overwritten.
 #[test]
 fn a_finished_merge_is_left_as_it_is() {
     let folder = folder();

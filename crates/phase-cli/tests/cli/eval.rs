@@ -40,7 +40,8 @@ fn trajectories_by_hand() {
     assert_eq!((&exact["n_events"], &exact["shorter"]), (&json!(6), &json!(4)));
     assert_eq!((&exact["ade"]["social"], &exact["intervals"]["ade"]["social"]), (&Value::Null, &Value::Null));
     eval("still");
-    // After n steps agent 0 is 0.05 n away from where it was, agent 1 not at all; events have 10, 13, 16, 19, 20, 20.
+    // After n steps agent 0 is 0.05 n away from where it was, agent 1 not at all; events have 10, 13, 16, 19,
+    // 20, 20.
     let still = results(&path.join("out.json"));
     let lengths = [10.0, 13.0, 16.0, 19.0, 20.0, 20.0];
     let fde = lengths.iter().map(|n| 0.05 * n / 2.0).sum::<f64>() / 6.0;

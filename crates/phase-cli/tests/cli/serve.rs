@@ -82,7 +82,8 @@ impl Served {
     }
 }
 
-/// A dataset's test events are the scenes; SIGTERM ends the program, and what it says is where it can be reached.
+/// A dataset's test events are the scenes; SIGTERM ends the program, and what it says is where it can be
+/// reached.
 #[cfg(unix)]
 #[test]
 fn it_serves_until_it_is_told_to_stop() {

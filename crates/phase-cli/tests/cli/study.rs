@@ -49,7 +49,9 @@ mod built_in {
             study.consent(&token, true, k.into()).expect("agreed");
             let mut stage = study.instructed(&token, k.into()).expect("read");
             while let Stage::Trial(page) = stage {
-                let answer = json!({"trial": page.trial, "answer": {"relation": relation}, "response_time": 1000, "plays": 1});
+                let answer = json!({
+                    "trial": page.trial, "answer": {"relation": relation}, "response_time": 1000, "plays": 1,
+                });
                 stage = study.answer(&token, &answer, k.into()).expect("answered");
             }
         }
@@ -120,7 +122,8 @@ mod built_in {
         }
     }
 
-    /// docs/how-to/studies.md, from top to bottom: the server shows the page that it names, then programs answer in the place of people.
+    /// docs/how-to/studies.md, from top to bottom: the server shows the page that it names, then programs
+    /// answer in the place of people.
     #[cfg(all(feature = "serve", unix))]
     #[test]
     fn as_documented() {

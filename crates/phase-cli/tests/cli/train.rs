@@ -67,8 +67,12 @@ fn write_dataset(folder: &Path) {
     let entries: Vec<Value> = ["train", "validation", "test"].into_iter().zip(0..).map(|(split, k)| {
         let way = |x: f64| (0..=4).map(|t| json!([x + 0.1 * f64::from(k * t), 8.0, 0.5, 0.0, 0.5])).collect();
         let (first, second): (Vec<Value>, Vec<Value>) = (way(9.0), way(20.0));
-        let goal = |agent: u8| json!({ "kind": "agent_on_landmark", "agent": agent, "landmark": agent, "sign": 1 });
-        let agent = |agent: u8| json!({ "size_level": 0, "strength_level": 2, "alpha": 0, "goal": goal(agent) });
+        let goal = |agent: u8| {
+            json!({ "kind": "agent_on_landmark", "agent": agent, "landmark": agent, "sign": 1 })
+        };
+        let agent = |agent: u8| {
+            json!({ "size_level": 0, "strength_level": 2, "alpha": 0, "goal": goal(agent) })
+        };
         let outcome = |number: u8| {
             let mut entry = agent(number);
             entry["reached"] = json!(false);
@@ -78,20 +82,23 @@ fn write_dataset(folder: &Path) {
         let event = json!({
             "id": split, "layout": { "base": 0, "flip": null }, "agents": [agent(0), agent(1)], "objects": [],
             "event": "independent",
-            "trajectory": { "columns": ["x", "y", "vx", "vy", "angle"], "agents": [first, second], "objects": [] },
+            "trajectory": {
+                "columns": ["x", "y", "vx", "vy", "angle"], "agents": [first, second], "objects": [],
+            },
         });
         let file = json!({ "format": "phase-events/1", "events": [event] });
         fs::write(folder.join(format!("{split}.json")), file.to_string()).expect("written");
         let described = |name: String| json!({ "path": name, "bytes": 0, "sha256": "0".repeat(64) });
         json!({
             "id": split, "kind": "independent", "split": split, "relation": "neutral", "seed": 1,
-            "layout": { "base": 0, "flip": null }, "agents": [outcome(0), outcome(1)], "object_size_levels": [],
-            "steps": 4, "event": described(format!("{split}.json")), "video": described(format!("{split}.mp4")),
+            "layout": { "base": 0, "flip": null }, "agents": [outcome(0), outcome(1)],
+            "object_size_levels": [], "steps": 4, "event": described(format!("{split}.json")),
+            "video": described(format!("{split}.mp4")),
         })
     }).collect();
     let manifest = json!({
-        "format": "phase-dataset/1", "generator": "g", "preset": "p", "seed": 1, "settings": {}, "selection": [],
-        "events": entries, "files": [],
+        "format": "phase-dataset/1", "generator": "g", "preset": "p", "seed": 1, "settings": {},
+        "selection": [], "events": entries, "files": [],
     });
     fs::write(folder.join("manifest.json"), manifest.to_string()).expect("written");
 }
@@ -173,7 +180,8 @@ fn the_record_says_what_was_learnt_from() {
     }
 }
 
-/// Further training events come from datasets and from simulations, and are in the record; what was trained can be used.
+/// Further training events come from datasets and from simulations, and are in the record; what was trained
+/// can be used.
 #[test]
 fn further_training_events() {
     let folder = tempfile::tempdir().unwrap();

@@ -125,7 +125,8 @@ fn what_files_agree_about_is_derived_again() {
     assert_eq!(found.first().map(String::as_str), Some("out/index.html: differs from what the events give"));
 }
 
-/// No command opens a file that a manifest names outside of its folder, or waits for a pipe in place of a manifest.
+/// No command opens a file that a manifest names outside of its folder, or waits for a pipe in place of a
+/// manifest.
 #[test]
 fn what_a_manifest_names_lies_in_its_folder() {
     let folder = tempfile::tempdir().expect("a folder");

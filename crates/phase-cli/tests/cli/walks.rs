@@ -13,8 +13,8 @@ fn text_of(document: &str) -> String {
     fs::read_to_string(path).expect("a document")
 }
 
-/// Runs every command of `phase` and `cargo xtask` in a document, in an empty folder; `before` sees each of them first, and says
-/// whether it did itself what the command does.
+/// Runs every command of `phase` and `cargo xtask` in a document, in an empty folder; `before` sees each of
+/// them first, and says whether it did itself what the command does.
 fn walk(document: &str, folder: &Path, before: impl Fn(&[&str]) -> bool) {
     let text = text_of(document);
     let mut count = 0;
