@@ -15,6 +15,7 @@ fn results(rated: bool, impression: bool) -> Value {
         let mut event = json!({
             "id": format!("event-{k}"), "goals": [[], []],
             "relation": { "friendly": 0.25, "adversarial": 0.25, "neutral": 0.5 },
+            "watched": [], "cpu_seconds": null, "details": null,
             "label": { "kind": "independent", "goals": [goal, goal], "relation": "neutral",
                        "relation_human": null, "layout_seen": null },
         });
