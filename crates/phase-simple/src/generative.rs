@@ -288,7 +288,7 @@ pub struct AgentDecision {
     pub action: Action,
     /// The explanation of the decision.
     pub thought: Thought,
-    /// Distance of the simulated from an observed state (u); see [`Deviations`].
+    /// Distance of the simulated from an observed state (u); see `Deviations`.
     pub deviation: f64,
 }
 

@@ -1,6 +1,6 @@
 //! Generation of a dataset, or of one shard of it, from a preset and a seed.
 //!
-//! A dataset is a list of slots, each of which tries scenes until one shows its label ([`slot`]). The result
+//! A dataset is a list of slots, each of which tries scenes until one shows its label (`slot`). The result
 //! of a slot depends only on the dataset's seed and the slot's number, so threads, interruptions and shards
 //! do not affect it. [`schedule`] decides what is done next, also ahead, and `crew` does it on several
 //! threads. When all slots are filled, [`mod@complete`] writes the files that describe the whole.
