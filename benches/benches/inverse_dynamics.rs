@@ -1,5 +1,5 @@
-//! Inverse dynamics, and all of SIMPLE beside it. Inverse dynamics of whole events: six simulated ones, one of each kind,
-//! and the recordings of the file `PHASE_EVENTS`.
+//! Inverse dynamics, and all of SIMPLE beside it. Inverse dynamics of whole events: six simulated ones, one
+//! of each kind, and the recordings of the file `PHASE_EVENTS`.
 
 use core::{hint::black_box, ops::ControlFlow};
 use criterion::{Criterion, SamplingMode};

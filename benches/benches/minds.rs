@@ -21,7 +21,8 @@ fn scene() -> Scene {
 fn main() {
     let mut criterion = Criterion::default().configure_from_args();
     let scene = scene();
-    let (physics, state) = (scene.physics(), scene.initial_state());
+    let physics = scene.physics();
+    let state = scene.initial_state();
     let observation = observe(&physics, &state, AgentId::ZERO);
     let forward = || Forward::new(&physics);
 
@@ -95,7 +96,8 @@ fn main() {
 /// One decision and one belief update, one setting varied at a time, the others as in the paper unless
 /// stated.
 fn scaling(criterion: &mut Criterion, scene: &Scene) {
-    let (physics, state) = (scene.physics(), scene.initial_state());
+    let physics = scene.physics();
+    let state = scene.initial_state();
     let observation = observe(&physics, &state, AgentId::ZERO);
     let paper = PhaseParameters::default();
     let with_simulations = |simulations| (simulations, PhaseParameters { simulations, ..paper });

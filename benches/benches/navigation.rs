@@ -1,4 +1,5 @@
-//! One distance field for a moving body between walls and around two others, one for an assembly, and queries of both.
+//! One distance field for a moving body between walls and around two others, one for an assembly, and queries
+//! of both.
 
 use core::hint::black_box;
 use criterion::Criterion;
@@ -32,7 +33,8 @@ fn main() {
     }
     // What a plan pays for the same distance, through doors alone (docs/minds.md).
     criterion.bench_function("navigation/route of a plan", |bencher| {
-        let (from, to) = (Vec2::new(24.0, 20.0), Vec2::new(8.5, 19.5));
+        let from = Vec2::new(24.0, 20.0);
+        let to = Vec2::new(8.5, 19.5);
         bencher.iter(|| map.route_cost(black_box(from), to, 2.4, map.gaps(), IMPASSABLE_COST));
     });
     let assembly = both_hold();

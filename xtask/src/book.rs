@@ -3,12 +3,16 @@
 //! Documents link to files elsewhere in the repository, which mdBook, whose source is one folder, would not
 //! have. So the book's source is a copy of the documents and of what they link to, in the same places.
 
-use crate::{error::XtaskError, results::root, tidy::texts};
+use crate::{
+    error::XtaskError,
+    results::root,
+    tidy::{texts, walk},
+};
 use clap::Args;
 use phase_cli::console::print_result;
 use std::{
     collections::{BTreeMap, BTreeSet},
-    fs, io,
+    fs, io, iter,
     path::{Path, PathBuf},
     process::Command,
 };
@@ -41,8 +45,7 @@ pub struct Book {
 /// [`XtaskError`] if a file cannot be used, mdBook is missing or fails, or a page has a link to nothing.
 pub fn run(options: &Book) -> Result<(), XtaskError> {
     let folder = root().join("target/book-source");
-    let documents =
-        assemble(root(), &folder).map_err(|(file, source)| XtaskError::Unreadable { file, source })?;
+    let documents = assemble(root(), &folder)?;
     let out = std::path::absolute(&options.out).unwrap_or_else(|_| options.out.clone());
     let place = out.as_os_str();
     for arguments in [&["build".as_ref(), "--dest-dir".as_ref(), place][..], &["test".as_ref()]] {
@@ -56,7 +59,7 @@ pub fn run(options: &Book) -> Result<(), XtaskError> {
         };
         return Err(XtaskError::Build { what: "the book", problem });
     }
-    let broken = broken_links(&out).map_err(|source| XtaskError::Unreadable { file: out.clone(), source })?;
+    let broken = broken_links(&out).map_err(XtaskError::unreadable(&out))?;
     if let Some((page, link)) = broken.first() {
         let problem =
             format!("{}: links to {link}, which is not there ({} such links)", page.display(), broken.len());
@@ -67,16 +70,14 @@ pub fn run(options: &Book) -> Result<(), XtaskError> {
 }
 
 /// Makes the book's source and returns the number of its documents.
-fn assemble(root: &Path, folder: &Path) -> Result<usize, (PathBuf, io::Error)> {
-    let failed = |file: &Path| {
-        let file = file.to_owned();
-        |error| (file, error)
-    };
+fn assemble(root: &Path, folder: &Path) -> Result<usize, XtaskError> {
+    let failed = XtaskError::unreadable;
+    let read = |file: &Path| fs::read_to_string(root.join(file)).map_err(failed(file));
     if folder.exists() {
         fs::remove_dir_all(folder).map_err(failed(folder))?;
     }
     let mut todo: Vec<PathBuf> = Vec::new();
-    files(&root.join(DOCUMENTS), &mut todo).map_err(failed(&root.join(DOCUMENTS)))?;
+    walk(&root.join(DOCUMENTS), &mut todo).map_err(failed(&root.join(DOCUMENTS)))?;
     let mut todo: Vec<PathBuf> =
         todo.into_iter().filter_map(|file| file.strip_prefix(root).map(Path::to_owned).ok()).collect();
     todo.push(FIRST.into());
@@ -92,7 +93,7 @@ fn assemble(root: &Path, folder: &Path) -> Result<usize, (PathBuf, io::Error)> {
         if file.extension().is_none_or(|ending| ending != "md") {
             fs::copy(root.join(&file), &place).map_err(failed(&file))?;
         } else {
-            let text = fs::read_to_string(root.join(&file)).map_err(failed(&file))?;
+            let text = read(&file)?;
             let page =
                 with_places(&if file.starts_with(DOCUMENTS) { text.clone() } else { without_tests(&text) });
             fs::write(&place, page).map_err(failed(&place))?;
@@ -102,8 +103,7 @@ fn assemble(root: &Path, folder: &Path) -> Result<usize, (PathBuf, io::Error)> {
         }
         copied.insert(file, title);
     }
-    let contents = Path::new(DOCUMENTS).join(CONTENTS);
-    let text = fs::read_to_string(root.join(&contents)).map_err(failed(&contents))?;
+    let text = read(&Path::new(DOCUMENTS).join(CONTENTS))?;
     let mut text = text.replace("](", &format!("]({DOCUMENTS}/")).replace(&format!("{DOCUMENTS}/../"), "");
     let elsewhere = |file: &Path| !file.starts_with(DOCUMENTS) && file != Path::new(FIRST);
     let others = copied.iter().filter(|(file, title)| elsewhere(file) && !title.is_empty());
@@ -113,9 +113,7 @@ fn assemble(root: &Path, folder: &Path) -> Result<usize, (PathBuf, io::Error)> {
     }
     let place = folder.join("src").join(CONTENTS);
     fs::write(&place, with_places(&text)).map_err(failed(&place))?;
-    let settings =
-        fs::read_to_string(root.join(DOCUMENTS).join(SETTINGS)).map_err(failed(Path::new(SETTINGS)))?;
-    let settings = settings.replace("src = \".\"", "src = \"src\"");
+    let settings = read(&Path::new(DOCUMENTS).join(SETTINGS))?.replace("src = \".\"", "src = \"src\"");
     fs::write(folder.join(SETTINGS), settings).map_err(failed(folder))?;
     Ok(copied.values().filter(|title| !title.is_empty()).count() - 1)
 }
@@ -138,32 +136,18 @@ fn without_tests(text: &str) -> String {
     text.replace("```rust\n", "```rust,ignore\n")
 }
 
-/// All files below a folder.
-fn files(folder: &Path, found: &mut Vec<PathBuf>) -> io::Result<()> {
-    for entry in fs::read_dir(folder)? {
-        let path = entry?.path();
-        if path.is_dir() { files(&path, found)? } else { found.push(path) }
-    }
-    Ok(())
-}
-
 /// Links of the pages to files that are not there: the page, and the link.
 fn broken_links(out: &Path) -> io::Result<Vec<(PathBuf, String)>> {
     let mut all = Vec::new();
-    files(out, &mut all)?;
+    walk(out, &mut all)?;
     let all: BTreeSet<&Path> = all.iter().filter_map(|file| file.strip_prefix(out).ok()).collect();
     let mut broken = Vec::new();
     for &page in all.iter().filter(|file| file.extension().is_some_and(|ending| ending == "html")) {
         // What a block of code shows is no link.
-        let text: String = fs::read_to_string(out.join(page))?
-            .split("<code")
-            .enumerate()
-            .map(
-                |(k, part)| {
-                    if k == 0 { part } else { part.split_once("</code>").map_or("", |(_, rest)| rest) }
-                },
-            )
-            .collect();
+        let text = fs::read_to_string(out.join(page))?;
+        let (first, others) = text.split_once("<code").unwrap_or((&text, ""));
+        let others = others.split("<code").filter_map(|part| Some(part.split_once("</code>")?.1));
+        let text: String = iter::once(first).chain(others).collect();
         let links = ["href=\"", "src=\""].into_iter().flat_map(|attribute| {
             text.split(attribute).skip(1).filter_map(|rest| rest.split('"').next()).collect::<Vec<_>>()
         });
@@ -193,7 +177,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         assemble(root(), folder.path()).unwrap();
         let (source, mut pages) = (folder.path().join("src"), Vec::new());
-        files(&source, &mut pages).unwrap();
+        walk(&source, &mut pages).unwrap();
         pages.retain(|page| {
             page.extension().is_some_and(|ending| ending == "md") && !page.starts_with(source.join(DOCUMENTS))
         });

@@ -1,7 +1,10 @@
 //! Every way in which a chore can fail, and its exit code.
 
 use phase_cli::{error::CliError, program::Failure};
-use std::{io, path::PathBuf};
+use std::{
+    io,
+    path::{Path, PathBuf},
+};
 use thiserror::Error;
 
 /// Reason that a command of `cargo xtask` failed. The text is one plain sentence.
@@ -37,15 +40,16 @@ pub enum XtaskError {
     Untidy(usize),
 }
 
+impl XtaskError {
+    /// The error of reading this file or folder.
+    pub(crate) fn unreadable(file: &Path) -> impl FnOnce(io::Error) -> Self + use<> {
+        let file = file.to_owned();
+        |source| Self::Unreadable { file, source }
+    }
+}
+
 impl Failure for XtaskError {
     fn exit_code(&self) -> u8 {
-        match self {
-            Self::Cli(error) => error.exit_code(),
-            Self::Unreadable { .. }
-            | Self::Cargo(_)
-            | Self::Build { .. }
-            | Self::Results(_)
-            | Self::Untidy(_) => 1,
-        }
+        if let Self::Cli(error) = self { error.exit_code() } else { 1 }
     }
 }

@@ -65,8 +65,9 @@ struct Predictions {
 
 /// Scores what it has the events for; other scores stay as they are.
 ///
-/// # Errors [`XtaskError`] if a file cannot be used, predictions have no score and their events were not
-/// given, or, with `--check`, a score differs.
+/// # Errors
+/// [`XtaskError`] if a file cannot be used, predictions have no score and their events were not given, or,
+/// with `--check`, a score differs.
 pub fn run(options: &Leaderboard, context: &Context) -> Result<(), XtaskError> {
     let root = results::root();
     let benchmark = results::benchmark(root)?;
@@ -92,11 +93,11 @@ pub fn run(options: &Leaderboard, context: &Context) -> Result<(), XtaskError> {
         };
         all.scores.push(score);
     }
+    let file = root.join(FOLDER).join(SCORES);
+    if options.check && all != known {
+        return Err(results::shape(&file, "is not what `cargo xtask leaderboard` writes"));
+    }
     if options.check {
-        if all != known {
-            let file = root.join(FOLDER).join(SCORES);
-            return Err(results::shape(&file, "is not what `cargo xtask leaderboard` writes"));
-        }
         print_result("the scores are those of the predictions");
         return Ok(());
     }
@@ -112,18 +113,17 @@ pub fn page(root: &Path, benchmark: &Benchmark) -> Result<String, XtaskError> {
     let scores = scores(root)?;
     let predictions = predictions(root)?;
     let file = root.join(FOLDER).join(SCORES);
-    if let Some(missing) =
-        predictions.iter().find(|it| !scores.scores.iter().any(|score| it.is_scored_by(score)))
-    {
+    let is_scored = |it: &Predictions| scores.scores.iter().any(|score| it.is_scored_by(score));
+    if let Some(missing) = predictions.iter().find(|it| !is_scored(it)) {
         return Err(results::shape(&file, &format!("lacks the score of {}", missing.file.display())));
     }
     if scores.scores.len() != predictions.len() {
         return Err(results::shape(&file, "has scores of predictions that are not there"));
     }
-    let sources: BTreeMap<String, Source> = results::read_json(&root.join(FOLDER).join(SOURCES))?;
+    let file = root.join(FOLDER).join(SOURCES);
+    let sources: BTreeMap<String, Source> = results::read_json(&file)?;
     if let Some(unknown) = predictions.iter().find(|it| !sources.contains_key(&it.method)) {
-        let rule = format!("does not say who made {}", unknown.method);
-        return Err(results::shape(&root.join(FOLDER).join(SOURCES), &rule));
+        return Err(results::shape(&file, &format!("does not say who made {}", unknown.method)));
     }
     Ok(evaluation::leaderboard(benchmark, &scores, &sources))
 }
@@ -135,20 +135,15 @@ fn scores(root: &Path) -> Result<Scores, XtaskError> {
 /// All files of predictions, sorted.
 fn predictions(root: &Path) -> Result<Vec<Predictions>, XtaskError> {
     let mut found = Vec::new();
-    for set in [GENERATED, RECORDED, PAIRS] {
-        for task in TASKS {
-            // A folder that is not there holds no predictions.
-            let entries =
-                fs::read_dir(root.join(FOLDER).join(set).join(task)).into_iter().flatten().flatten();
-            for file in entries
-                .map(|entry| entry.path())
-                .filter(|file| file.extension().is_some_and(|it| it == "json"))
-            {
-                let bytes = fs::read(&file)
-                    .map_err(|source| XtaskError::Unreadable { file: file.clone(), source })?;
-                let method = file.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-                found.push(Predictions { set, task, method, file, sha256: sha256_hex(&bytes) });
-            }
+    let sets = [GENERATED, RECORDED, PAIRS].into_iter();
+    for (set, task) in sets.flat_map(|set| TASKS.map(|task| (set, task))) {
+        // A folder that is not there holds no predictions.
+        let entries = fs::read_dir(root.join(FOLDER).join(set).join(task)).into_iter().flatten().flatten();
+        let files = entries.map(|entry| entry.path());
+        for file in files.filter(|file| file.extension().is_some_and(|ending| ending == "json")) {
+            let bytes = fs::read(&file).map_err(XtaskError::unreadable(&file))?;
+            let method = file.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+            found.push(Predictions { set, task, method, file, sha256: sha256_hex(&bytes) });
         }
     }
     found.sort_by(|a, b| a.file.cmp(&b.file));
@@ -167,8 +162,7 @@ impl Predictions {
 
     /// Scores the predictions as `eval` does, on the events that the benchmark was run on.
     fn score(&self, events: &Path, benchmark: &Benchmark, context: &Context) -> Result<Score, XtaskError> {
-        let folder = tempfile::tempdir()
-            .map_err(|source| XtaskError::Unreadable { file: "a temporary folder".into(), source })?;
+        let folder = tempfile::tempdir().map_err(XtaskError::unreadable(Path::new("a temporary folder")))?;
         let out = folder.path().join("scored");
         let split: &[&str] = if self.set == GENERATED { &["--split", "test"] } else { &[] };
         let paths = [("--predictions", self.file.as_path()), ("--events", events), ("--out", &out)];
@@ -186,10 +180,8 @@ impl Predictions {
         let measures = measures(self.task, &results).ok_or_else(|| {
             results::shape(&self.file, "has results without the measures of the leaderboard")
         })?;
-        let method = self.method.clone();
-        let set = self.set.into();
         let predictions = self.sha256.clone();
-        Ok(Score { method, set, predictions, events: digest, measures })
+        Ok(Score { method: self.method.clone(), set: self.set.into(), predictions, events: digest, measures })
     }
 }
 

@@ -113,7 +113,7 @@ fn with_table(text: &str, table: &str) -> Option<String> {
 }
 
 fn read(file: &Path) -> Result<String, XtaskError> {
-    fs::read_to_string(file).map_err(|source| XtaskError::Unreadable { file: file.to_owned(), source })
+    fs::read_to_string(file).map_err(XtaskError::unreadable(file))
 }
 
 pub(crate) fn read_json<T: serde::de::DeserializeOwned>(file: &Path) -> Result<T, XtaskError> {

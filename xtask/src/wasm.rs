@@ -1,7 +1,7 @@
 //! Builds the playground's WebAssembly: compiles `phase-playground` for browsers and has `wasm-bindgen` write
 //! what JavaScript loads.
 
-use crate::error::XtaskError;
+use crate::{error::XtaskError, results::root};
 use phase_cli::context::Context;
 use std::{
     env, fs,
@@ -20,7 +20,7 @@ const TOOL: &str = "wasm-bindgen";
 /// # Errors
 /// [`XtaskError::Build`] if a tool is missing or fails.
 pub fn build(context: &Context) -> Result<PathBuf, XtaskError> {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap_or(Path::new("."));
+    let root = root();
     let target = env::var_os("CARGO_TARGET_DIR").map_or_else(|| root.join("target"), PathBuf::from);
     // Without rustup the compiler may have the target all the same; cargo says if it does not.
     let _ = Command::new("rustup").args(["target", "add", TARGET]).current_dir(root).output();
@@ -56,7 +56,7 @@ pub fn build(context: &Context) -> Result<PathBuf, XtaskError> {
 /// The version of the library, from the lock file.
 fn version(root: &Path) -> Result<String, XtaskError> {
     let file = root.join("Cargo.lock");
-    let lock = fs::read_to_string(&file).map_err(|source| XtaskError::Unreadable { file, source })?;
+    let lock = fs::read_to_string(&file).map_err(XtaskError::unreadable(&file))?;
     let mut lines = lock.lines().skip_while(|line| *line != "name = \"wasm-bindgen\"");
     let version = lines.nth(1).and_then(|line| line.strip_prefix("version = \"")?.strip_suffix('"'));
     version.map(str::to_owned).ok_or_else(|| XtaskError::Build {

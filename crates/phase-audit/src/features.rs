@@ -1,4 +1,4 @@
-//! What is known of an event without looking at its motion.
+//! The features of an event that are known without looking at its motion.
 
 use phase_dataset::labels::goal_label;
 use phase_event::Recording;
@@ -13,17 +13,17 @@ pub enum Feature {
     Objects,
     /// Radii of agents and objects.
     Sizes,
-    /// The walls: where each of the four begins and ends that an opening may be in, and which layout it is.
+    /// The walls: where each of the four that may have an opening begins and ends, and the layout.
     Layout,
     /// Places of all bodies at the start, directions of the agents, and distances between bodies.
     FirstPositions,
-    /// All of these together.
+    /// All groups above together.
     All,
     /// Strengths of the agents, which cannot be seen.
     Strengths,
     /// Places of all bodies at the end: motion, but none that a viewer should need.
     FinalPositions,
-    /// Length of each body's path: likewise.
+    /// Length of each body's path: motion, too.
     Paths,
 }
 
@@ -41,7 +41,7 @@ impl Feature {
         Self::Paths,
     ];
 
-    /// Its name in tables.
+    /// The name of the group in tables.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
@@ -70,10 +70,11 @@ pub struct AuditItem {
 }
 
 impl AuditItem {
-    /// Of an event.
+    /// The features and labels of an event.
     #[must_use]
     pub fn of(recording: &Recording) -> Self {
-        let (scene, states) = (&recording.scene, recording.trajectory.states());
+        let scene = &recording.scene;
+        let states = recording.trajectory.states();
         let goal =
             |agent: AgentId| goal_label(scene.agents[agent].goal, scene.agents[agent].attitude.alpha());
         let classes = [
@@ -129,7 +130,8 @@ impl AuditItem {
     }
 }
 
-/// Objects may have exchanged their numbers on a stage, so the key does not depend on the order of its numbers.
+/// Objects may have exchanged their numbers on a stage, so the key does not depend on the order of its
+/// numbers.
 fn unordered(mut numbers: Vec<u32>) -> Vec<u32> {
     numbers.sort_unstable();
     numbers

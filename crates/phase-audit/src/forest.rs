@@ -11,10 +11,11 @@ const TREES: u16 = 100;
 /// Minimum number of training events at a leaf.
 const MIN_SAMPLES_LEAF: usize = 3;
 
-/// Trains a forest on rows of equal length with their classes, and returns the classes that it predicts for others.
+/// Trains a forest on rows of equal length with their classes, and returns the classes that it predicts for
+/// others.
 ///
 /// # Errors
-/// That of the library, for example for a single class.
+/// If the library cannot train a forest, for example on a single class.
 pub(crate) fn predict(
     rows: &[&Vec<f64>],
     classes: &[u32],

@@ -8,13 +8,13 @@ use std::collections::{BTreeMap, BTreeSet};
 const FOLDS: usize = 5;
 /// Minimum number of events for an audit: below, accuracies are chance.
 const MIN_EVENTS: usize = 50;
-/// Maximum number of events for an audit; of more, the first ones are taken. The standard error of a share is below 0.01
-/// then.
+/// Maximum number of events in an audit. Of a larger dataset the first ones are taken; the standard error of
+/// a share is then below 0.01.
 pub const MAX_EVENTS: usize = 3000;
 /// Seed of folds and forests.
 const SEED: u64 = 1;
 
-/// What is to be told.
+/// A label that the forest predicts.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub enum Target {
     /// Friendly, neutral, adversarial.
@@ -28,10 +28,10 @@ pub enum Target {
 }
 
 impl Target {
-    /// All targets.
+    /// All targets, in the order of tables.
     pub const ALL: [Self; 4] = [Self::Relation, Self::Kind, Self::GoalOfAgent0, Self::GoalOfAgent1];
 
-    /// Its name in tables.
+    /// The name of the target in tables.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
@@ -55,9 +55,9 @@ pub struct AuditRow {
 /// The result of an audit.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Audit {
-    /// Events audited.
+    /// Number of events audited.
     pub events: usize,
-    /// Events there are.
+    /// Number of events in the dataset.
     pub of: usize,
     /// The share of the most frequent class, by [`Target::ALL`].
     pub majorities: [f64; 4],
@@ -66,7 +66,8 @@ pub struct Audit {
 }
 
 impl Audit {
-    /// How much more often than the majority all motion-free features together tell a target; may be negative.
+    /// Accuracy of all motion-free features together, less the share of the most frequent class; may be
+    /// negative.
     #[must_use]
     pub fn excess(&self, target: Target) -> f64 {
         let all = self.rows.iter().find(|row| row.feature == Feature::All);
@@ -74,8 +75,8 @@ impl Audit {
     }
 }
 
-/// Audits the first events of a dataset that has `of` of them. `None` for fewer than fifty, in which accuracies would be
-/// chance; no more than [`MAX_EVENTS`] are used.
+/// Audits the first events of a dataset that has `of` of them. `None` for fewer than fifty events, in which
+/// accuracies would be chance. No more than [`MAX_EVENTS`] are used.
 #[must_use]
 pub fn audit(items: &[AuditItem], of: usize) -> Option<Audit> {
     let items = &items[..items.len().min(MAX_EVENTS)];
@@ -119,8 +120,8 @@ fn majority(classes: &[u32]) -> f64 {
     counts.values().max().copied().unwrap_or(0) as f64 / classes.len().max(1) as f64
 }
 
-/// The share of items whose class is predicted by a forest trained on the other folds. Where a forest cannot be trained,
-/// for example on a single class, the most frequent class is predicted.
+/// The share of items whose class is predicted by a forest trained on the other folds. Where a forest cannot
+/// be trained, for example on a single class, the most frequent class is predicted.
 fn accuracy(items: &[AuditItem], feature: Feature, classes: &[u32], folds: &[usize]) -> f64 {
     let row = |k: usize| &items[k].features[feature as usize];
     let right: usize = (0..FOLDS)
@@ -157,7 +158,7 @@ pub fn table(audit: &Audit) -> String {
     text
 }
 
-/// What the table shows, in a sentence.
+/// The finding of the table, in a sentence.
 #[must_use]
 pub fn summary(audit: &Audit) -> String {
     let one = |target: Target| {
@@ -165,6 +166,7 @@ pub fn summary(audit: &Audit) -> String {
         let all = majority + audit.excess(target);
         format!("the {} of {all:.3} of the events (most frequent class {majority:.3})", target.name())
     };
-    let (relation, kind) = (one(Target::Relation), one(Target::Kind));
+    let relation = one(Target::Relation);
+    let kind = one(Target::Kind);
     format!("a random forest that sees no motion tells {relation}, and {kind}")
 }

@@ -91,8 +91,8 @@ fn a_length_that_belongs_to_a_kind_is_found() {
     assert!(audit.excess(Target::Relation) > 0.4);
 }
 
-/// Three events on each stage, one of each kind: a forest that had seen two of them would know what the third is not, and
-/// be wrong more often than by chance if it had not.
+/// Three events on each stage, one of each kind: a forest that had seen two of them would know what the third
+/// is not, and be wrong more often than by chance if it had not.
 #[test]
 fn events_that_share_bodies_are_in_one_fold() {
     let mut random = stream(2, Purpose::Event, 0);

@@ -1,4 +1,5 @@
-//! Draws the 22 base layouts and their mirrors into the .png file given as argument: the picture in `docs/images`.
+//! Draws the 22 base layouts and their mirrors into the .png file given as argument: the picture in
+//! `docs/images`.
 
 use phase_render::{Palette, layout_chart};
 use std::error::Error;

@@ -1,7 +1,7 @@
 //! Draws and encodes a synthetic event of 500 frames, and prints time per frame and the size of the video.
 //!
-//! With a directory as argument it leaves `plain.mp4`, `belief.mp4`, `plain.png`, `belief.png`, `both.png` (accessible
-//! palette) and `sheet.png` there, to look at.
+//! With a directory as argument it leaves `plain.mp4`, `belief.mp4`, `plain.png`, `belief.png`, `both.png`
+//! (accessible palette) and `sheet.png` there, to look at.
 
 use phase_model::{
     AgentBody, AgentId, Body, Grip, Layout, ObjectId, PhysicsConfig, Side, State, Vec2, arena,

@@ -29,7 +29,8 @@ pub(crate) fn entities(physics: &PhysicsConfig) -> impl Iterator<Item = Entity> 
 /// Draws all bodies of a state: agents, objects on top, and a mark at each grip.
 pub(crate) fn draw(painter: &mut Painter, palette: &Palette, physics: &PhysicsConfig, state: &State) {
     for entity in entities(physics) {
-        let (body, radius) = (state.body(entity), physics.radius(entity));
+        let body = state.body(entity);
+        let radius = physics.radius(entity);
         match entity {
             Entity::Agent(agent) => draw_agent(painter, palette, agent, radius, body),
             Entity::Object(object) => {
@@ -55,7 +56,8 @@ pub(crate) fn draw_believed(
     match entity {
         Entity::Agent(agent) => {
             let colour = palette.agents[agent];
-            let (outer, inner) = (corners(body, radius, 0.0), corners(body, radius, OUTLINE));
+            let outer = corners(body, radius, 0.0);
+            let inner = corners(body, radius, OUTLINE);
             painter.polygon(&inner, colour, BELIEF_FILL);
             painter.frame(&outer, &inner, colour, BELIEF_EDGE);
         }
@@ -113,7 +115,8 @@ fn draw_grip(
 
 /// From the agent's frame in multiples of its radius to the world.
 fn placement(body: &Body, radius: f32) -> impl Fn(Vec2) -> Vec2 {
-    let (origin, rotation) = (body.position, Vec2::from_angle(body.angle));
+    let origin = body.position;
+    let rotation = Vec2::from_angle(body.angle);
     move |point| origin + rotation.rotate(point * radius)
 }
 

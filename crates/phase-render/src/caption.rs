@@ -10,10 +10,11 @@ use tiny_skia::Pixmap;
 /// One line below the arena.
 #[derive(Clone, PartialEq, Debug, Default)]
 pub struct Caption {
-    /// Numbers or headings before the text, each right-aligned in a column [`Style::cell_width`] wide, so that numbers
-    /// of successive lines stand below one another. Characters that the font lacks become an empty box.
+    /// Numbers or headings before the text, each right-aligned in a column [`Style::cell_width`] wide, so
+    /// that numbers of successive lines stand below one another. Characters that the font lacks become an
+    /// empty box.
     pub cells: Vec<String>,
-    /// What is written behind the cells. What does not fit within [`Style::text_width`] is replaced by an ellipsis.
+    /// Text behind the cells. An ellipsis replaces the part that does not fit within [`Style::text_width`].
     pub text: String,
     /// A pale bar behind the line, as a share of the arena's width: 0 or less for none, 1 for all of it.
     pub bar: f32,
@@ -28,10 +29,11 @@ impl From<String> for Caption {
 
 /// Draws as many captions as the style has lines for.
 pub(crate) fn draw(pixmap: &mut Pixmap, style: &Style, font: &SizedFont, captions: &[Caption]) {
-    let (height, width) = (style.line_height(), style.text_width());
+    let height = style.line_height();
+    let width = style.text_width();
     let mut top = style.caption_top();
     for caption in captions.iter().take(style.caption_lines as usize) {
-        // The cast takes what is not a number for nothing. The two rows left free tell bars apart.
+        // The cast turns NaN into 0. The two rows left free tell bars apart.
         let bar = (caption.bar.clamp(0.0, 1.0) * width as f32).round() as u32;
         fill(pixmap, (style.margin, top), (bar, height - 2), style.palette.bar);
         draw_line(pixmap, style, font, font.baseline(top, height - 2), caption);
@@ -41,7 +43,8 @@ pub(crate) fn draw(pixmap: &mut Pixmap, style: &Style, font: &SizedFont, caption
 
 fn draw_line(pixmap: &mut Pixmap, style: &Style, font: &SizedFont, baseline: i32, caption: &Caption) {
     let gap = 0.5 * style.text_size() as f32;
-    let (cell, end) = (style.cell_width() as f32, (style.margin + style.text_width()) as f32);
+    let cell = style.cell_width() as f32;
+    let end = (style.margin + style.text_width()) as f32;
     let mut left = style.margin as f32;
     for text in &caption.cells {
         let cell = cell.min(end - left);

@@ -1,8 +1,8 @@
-//! What can go wrong between a state and a file.
+//! Errors between a state and a file.
 
 use thiserror::Error;
 
-/// Why a frame, a contact sheet or a video could not be made.
+/// Reason why a frame, a contact sheet or a video could not be made.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum RenderError {
@@ -11,9 +11,9 @@ pub enum RenderError {
     Style {
         /// The field of [`crate::Style`].
         field: &'static str,
-        /// What it must be.
+        /// The range that it must be in.
         rule: String,
-        /// What it is.
+        /// Its value.
         found: u32,
     },
     /// A width or height of a video is odd: H.264 keeps one colour for each 2 × 2 pixels.
@@ -40,9 +40,9 @@ pub enum RenderError {
     FrameSize {
         /// Position of the frame, from 0.
         index: usize,
-        /// Its width (pixels).
+        /// Width of the frame (pixels).
         found_width: u32,
-        /// Its height (pixels).
+        /// Height of the frame (pixels).
         found_height: u32,
         /// The width needed (pixels).
         width: u32,

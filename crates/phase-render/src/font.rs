@@ -36,7 +36,7 @@ impl Font {
         self.face.glyph_id(character) != GlyphId(0)
     }
 
-    /// How far a character advances the position of the next one (em).
+    /// Advance: distance from a character to the next one (em).
     #[must_use]
     pub fn advance(&self, character: char) -> f32 {
         self.face.h_advance_unscaled(self.face.glyph_id(character)) / self.units_per_em
@@ -48,8 +48,8 @@ impl Font {
         CAPITAL_HEIGHT
     }
 
-    /// A character's outline at a size (pixels per em) with its origin on the baseline at a point (pixels, y down);
-    /// `None` if it leaves no ink.
+    /// A character's outline at a size (pixels per em) with its origin on the baseline at a point (pixels, y
+    /// down); `None` if it leaves no ink.
     pub(crate) fn outline(&self, character: char, size: f32, x: f32, baseline: f32) -> Option<OutlinedGlyph> {
         let scale = PxScale::from(size * self.face.height_unscaled() / self.units_per_em);
         let glyph = Glyph { id: self.face.glyph_id(character), scale, position: point(x, baseline) };

@@ -31,7 +31,8 @@ impl Frame {
     /// Red, green and blue of one pixel, or `None` outside the picture.
     #[must_use]
     pub fn pixel(&self, x: u32, y: u32) -> Option<[u8; 3]> {
-        // The pixmap itself only checks that the pixel lies within its memory, which wraps around at the right.
+        // The pixmap itself only checks that the pixel lies within its memory, which wraps around at the
+        // right.
         let pixel = if x < self.width() { self.pixmap.pixel(x, y) } else { None };
         pixel.map(|pixel| [pixel.red(), pixel.green(), pixel.blue()])
     }

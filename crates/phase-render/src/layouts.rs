@@ -22,22 +22,24 @@ const DOWN: u32 = SIDE + 26;
 /// Room for the number of the layout and the axis on the left of a block (pixels).
 const LEFT: u32 = 78;
 const BLOCK: u32 = LEFT + VARIANTS * ACROSS;
-/// Side of the arena in the large picture, its distance from the left, and the height of the part with it (pixels).
+/// Side of the arena in the large picture, its distance from the left, and the height of the part with it
+/// (pixels).
 const LARGE_SIDE: u32 = 360;
 const LARGE_LEFT: u32 = 60;
 const HEADER: u32 = LARGE_SIDE + 90;
-/// Where the first row of small pictures begins, below its headings (pixels).
+/// Top of the first row of small pictures, below its headings (pixels).
 const TOP: u32 = HEADER + 28;
 const BOTTOM: u32 = 8;
 /// Sizes of text (pixels per em).
 const TEXT: u32 = 13;
 const LABEL: u32 = 11;
 
-/// What stands above the pictures of a block: the layout as it is, then its mirrors in the order of [`Flip::ALL`].
+/// Headings above the pictures of a block: the layout as it is, then its mirrors in the order of
+/// [`Flip::ALL`].
 const HEADINGS: [&str; VARIANTS as usize] =
     ["no flip", "flip 0: ↕", "flip 1: ↔", "flip 2: diagonal", "flip 3: antidiagonal"];
 
-/// What the chart says beside the large picture.
+/// Lines of text beside the large picture.
 const NOTES: [&str; 12] = [
     "The 22 base layouts and their mirrors",
     "",
@@ -53,19 +55,21 @@ const NOTES: [&str; 12] = [
     "Landmarks keep their numbers and places; only walls are mirrored.",
 ];
 
-/// A picture of the 22 base layouts, each as it is and in its four mirrors, with axes (u) and landmark numbers, below a
-/// larger one with the landmarks' coordinates.
+/// A picture of the 22 base layouts, each as it is and in its four mirrors, with axes (u) and landmark
+/// numbers, below a larger one with the landmarks' coordinates.
 ///
 /// # Errors
-/// [`RenderError::Font`] if the embedded font cannot be parsed, which a test excludes; [`RenderError::Layout`] if
-/// there are fewer base layouts than that.
+/// [`RenderError::Font`] if the embedded font cannot be parsed, which a test excludes;
+/// [`RenderError::Layout`] if there are fewer than 22 base layouts.
 pub fn layout_chart(palette: &Palette) -> Result<Frame, RenderError> {
-    let (width, height) = (BLOCKS * BLOCK, TOP + BASES.div_ceil(BLOCKS) * DOWN + BOTTOM);
+    let width = BLOCKS * BLOCK;
+    let height = TOP + BASES.div_ceil(BLOCKS) * DOWN + BOTTOM;
     let mut pixmap = Pixmap::new(width, height).ok_or(RenderError::Sheet { frames: 110, columns: 10 })?;
     let [red, green, blue] = palette.background;
     pixmap.fill(Color::from_rgba8(red, green, blue, 255));
     let painter = Painter { pixmap, view: View { scale: 1.0, corner: Vec2::ZERO } };
-    let (text, label) = (SizedFont::new(TEXT)?, SizedFont::new(LABEL)?);
+    let text = SizedFont::new(TEXT)?;
+    let label = SizedFont::new(LABEL)?;
     let mut chart = Chart { painter, palette: *palette, text, label };
     chart.header()?;
     for base in 0..BASES {
@@ -135,7 +139,8 @@ impl Chart {
         }
         draw_walls(&mut self.painter, &layout.walls(), &self.palette);
         for &mark in marks {
-            let (x, y) = (mark as f32, (mark - 4) as f32);
+            let x = mark as f32;
+            let y = (mark - 4) as f32;
             let pixel = self.painter.view.pixel(Vec2::new(x, y));
             self.label(&mark.to_string(), (pixel.x, (top + side) as i32 + 13), Align::Centre);
             if y_axis {

@@ -1,4 +1,4 @@
-//! What the marks of an overlay mean.
+//! The legend: the meaning of the marks of an overlay.
 
 use crate::{
     Colour, Style,
@@ -18,9 +18,9 @@ const COLUMNS: u32 = 3;
 pub enum Mark {
     /// Cells that the agent sees, tinted.
     Seen,
-    /// Cells that it does not see, covered.
+    /// Cells that the agent does not see, covered.
     Unseen,
-    /// What an agent holds.
+    /// The grip of an agent on an object.
     Grip,
     /// Bodies where they are.
     TrueState,
@@ -30,7 +30,7 @@ pub enum Mark {
     Share,
 }
 
-/// The marks in the order of the legend, with what is written beside them.
+/// The marks in the order of the legend, with the text beside each.
 pub const ENTRIES: [(Mark, &str); (LEGEND_LINES * COLUMNS) as usize] = [
     (Mark::Seen, "field of view"),
     (Mark::TrueState, "true state"),
@@ -81,7 +81,8 @@ fn draw_sample(painter: &mut Painter, style: &Style, mark: Mark, sample: &Sample
         Mark::Unseen => framed(painter, style, sample, palette.unseen, UNSEEN),
         Mark::Share => fill(&mut painter.pixmap, (left, top), (width, height), palette.bar),
         Mark::TrueState => {
-            let (first, second) = (at(0.25), at(0.75));
+            let first = at(0.25);
+            let second = at(0.75);
             bodies::draw_disc(painter, palette, first, radius, palette.objects[0]);
             bodies::draw_disc(painter, palette, second, radius, palette.objects[1]);
         }

@@ -1,9 +1,10 @@
 //! PHASE events as frames and video.
 //!
-//! A [`SceneRenderer`] knows what does not change in an event (walls, landmarks, radii, colours) and turns each
-//! [`phase_model::State`] into a [`Frame`]; a [`VideoEncoder`] turns frames into an H.264 .mp4 that browsers
-//! play and seek in. With an [`Overlay`] a frame also shows what one agent sees and believes, and
-//! [`side_by_side`] joins the views of both. Text is drawn in an embedded font ([`SizedFont`]); colours are a [`Palette`].
+//! A [`SceneRenderer`] knows what does not change in an event (walls, landmarks, radii, colours) and turns
+//! each [`phase_model::State`] into a [`Frame`]; a [`VideoEncoder`] turns frames into an H.264 .mp4 that
+//! browsers play and seek in. With an [`Overlay`] a frame also shows what one agent sees and believes, and
+//! [`side_by_side`] joins the views of both. Text is drawn in an embedded font ([`SizedFont`]); colours are a
+//! [`Palette`].
 //!
 //! Key design decision: pixels are the whole interface. Drawing and encoding meet in a [`Frame`] and do not
 //! depend on each other, and neither accesses a file or a clock. Everything is drawn and encoded on one
@@ -15,7 +16,8 @@
 //! use phase_render::{SceneRenderer, Style, VideoEncoder};
 //!
 //! let agent = AgentBody { radius: 0.8, max_force: 300.0 };
-//! let physics = PhysicsConfig { walls: vec![], agents: [agent; 2], object_radii: [0.0; 2], object_count: 0 };
+//! let physics =
+//!     PhysicsConfig { walls: vec![], agents: [agent; 2], object_radii: [0.0; 2], object_count: 0 };
 //! let renderer = SceneRenderer::new(&physics, Style::default())?;
 //! let mut video = VideoEncoder::new(Vec::new(), renderer.width(), renderer.height(), 20)?;
 //! for tick in 0..3 {

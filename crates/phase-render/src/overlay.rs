@@ -1,4 +1,4 @@
-//! What one agent sees and believes, drawn over the true state.
+//! An agent's view and beliefs, drawn over the true state.
 
 use crate::{Caption, Palette, bodies, painter::Painter};
 use phase_model::{AgentId, Entity, PhysicsConfig, State, Vec2};
@@ -7,16 +7,17 @@ use phase_perception::{Cell, CellSet};
 /// One agent's view of the world at the moment of a frame.
 #[derive(Clone, Copy, Debug)]
 pub struct Overlay<'a> {
-    /// Whose view it is. The agent knows its own state, so its own body is not drawn as a belief.
+    /// The agent whose view is drawn. The agent knows its own state, so its own body is not drawn as a
+    /// belief.
     pub agent: AgentId,
-    /// The cells in its field of view; the others are dimmed.
+    /// The cells in the agent's field of view; the others are dimmed.
     pub visible: &'a CellSet,
-    /// Its belief particles, each drawn translucent; where many agree the picture becomes opaque.
+    /// The agent's belief particles, each drawn translucent; where many agree the picture becomes opaque.
     pub particles: &'a [State],
     /// A line above the arena, drawn if [`crate::Style::title`] is set.
     pub title: &'a str,
-    /// Lines below the arena, such as the subgoal and its value. Lines past [`crate::Style::caption_lines`] are left
-    /// out.
+    /// Lines below the arena, such as the subgoal and its value. Lines past [`crate::Style::caption_lines`]
+    /// are left out.
     pub captions: &'a [Caption],
 }
 

@@ -4,7 +4,7 @@ use crate::{Colour, Style};
 use phase_model::{Vec2, arena};
 use tiny_skia::{Color, FillRule, Paint, Path, PathBuilder, Pixmap, PremultipliedColorU8, Rect, Transform};
 
-/// Where the world lies in the picture.
+/// Placement of the world in the picture.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(crate) struct View {
     /// Pixels per world unit.
@@ -40,11 +40,13 @@ pub(crate) struct Painter {
 }
 
 impl Painter {
-    /// Fills an axis-aligned rectangle between two corners (u), its edges moved to the nearest pixels, so that
-    /// neighbours meet without a seam even where they are translucent.
+    /// Fills an axis-aligned rectangle between two corners (u), its edges moved to the nearest pixels, so
+    /// that neighbours meet without a seam even where they are translucent.
     pub(crate) fn rectangle(&mut self, a: Vec2, b: Vec2, colour: Colour, alpha: u8) {
-        let (a, b) = (self.view.pixel(a).round(), self.view.pixel(b).round());
-        let (low, high) = (a.min(b), a.max(b));
+        let a = self.view.pixel(a).round();
+        let b = self.view.pixel(b).round();
+        let low = a.min(b);
+        let high = a.max(b);
         if let Some(rectangle) = Rect::from_ltrb(low.x, low.y, high.x, high.y) {
             let mut paint = paint(colour, alpha);
             paint.anti_alias = false;
@@ -59,7 +61,7 @@ impl Painter {
         }
     }
 
-    /// Fills what lies between a polygon and a smaller one inside it (u).
+    /// Fills the area between a polygon and a smaller one inside it (u).
     pub(crate) fn frame(&mut self, outer: &[Vec2], inner: &[Vec2], colour: Colour, alpha: u8) {
         if let (Some(outer), Some(inner)) = (self.polygon_path(outer), self.polygon_path(inner)) {
             self.fill_between(&outer, &inner, colour, alpha);
@@ -73,7 +75,7 @@ impl Painter {
         }
     }
 
-    /// Fills what lies between two circles around one centre (u).
+    /// Fills the area between two circles around one centre (u).
     pub(crate) fn ring(&mut self, centre: Vec2, outer: f32, inner: f32, colour: Colour, alpha: u8) {
         if let (Some(outer), Some(inner)) = (self.disc_path(centre, outer), self.disc_path(centre, inner)) {
             self.fill_between(&outer, &inner, colour, alpha);
@@ -118,7 +120,8 @@ pub(crate) fn fill(
     (across, down): (u32, u32),
     [red, green, blue]: Colour,
 ) {
-    let (width, height) = (pixmap.width(), pixmap.height());
+    let width = pixmap.width();
+    let height = pixmap.height();
     let Some(colour) = PremultipliedColorU8::from_rgba(red, green, blue, 255) else { return };
     for y in top..(top + down).min(height) {
         for x in left..(left + across).min(width) {

@@ -19,10 +19,10 @@ pub enum PaletteName {
 }
 
 impl PaletteName {
-    /// All names.
+    /// All palettes.
     pub const ALL: [Self; 2] = [Self::Paper, Self::Accessible];
 
-    /// The name on the command line.
+    /// The palette's name on the command line.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
@@ -44,7 +44,7 @@ impl PaletteName {
 /// The colours of everything drawn.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Palette {
-    /// Behind everything.
+    /// The ground behind everything.
     pub background: Colour,
     /// Inner walls, the arena's boundary and text.
     pub ink: Colour,
@@ -56,15 +56,15 @@ pub struct Palette {
     pub agents: [Colour; 2],
     /// Objects 0 and 1.
     pub objects: [Colour; 2],
-    /// What these colours are called in captions.
+    /// The names of these colours in captions.
     pub names: Names,
     /// The shares friendly, adversarial and neutral of a course.
     pub shares: [Colour; SHARES],
     /// Outlines of bodies.
     pub outline: Colour,
-    /// What is not seen in an overlay is covered with this colour, half transparent.
+    /// Cover of cells that are not seen in an overlay, half transparent.
     pub unseen: Colour,
-    /// What is seen in an overlay is tinted with this colour, slightly.
+    /// Slight tint of cells that are seen in an overlay.
     pub seen: Colour,
     /// Bars behind captions; pale, since text is written over them.
     pub bar: Colour,
@@ -100,12 +100,14 @@ impl Palette {
         bar: [185, 212, 245],
     };
 
-    /// Colours of Okabe and Ito ("Color Universal Design", 2008), some mixed with white or darkened: pale blue, grey,
-    /// orange and pale yellow landmarks; a vermilion and a dark blue agent; a sky blue and a yellow object.
+    /// Colours of Okabe and Ito ("Color Universal Design", 2008), some mixed with white or darkened: pale
+    /// blue, grey, orange and pale yellow landmarks; a vermilion and a dark blue agent; a sky blue and a
+    /// yellow object.
     ///
-    /// Bodies, landmarks, walls and floor differ from one another by ΔE\*ab ≥ 18 for normal vision, protanopia
-    /// and deuteranopia (simulated after Machado et al. 2009) and by ≥ 9 for tritanopia; agents, objects and
-    /// landmarks also differ within their kind by L\* ≥ 9. The test `palettes` computes all of it.
+    /// Bodies, landmarks, walls and floor differ from one another by ΔE\*ab ≥ 18 for normal vision,
+    /// protanopia and deuteranopia (simulated after Machado et al. 2009) and by ≥ 9 for tritanopia; agents,
+    /// objects and landmarks also differ within their kind by L\* ≥ 9. The test `palettes` computes all of
+    /// these figures.
     pub const ACCESSIBLE: Self = Self {
         landmarks: [
             mix_with_white([0, 114, 178], 30),
@@ -126,7 +128,7 @@ impl Palette {
     };
 }
 
-/// So many hundredths of a colour, the rest white.
+/// Mixes `percent` hundredths of a colour with white.
 const fn mix_with_white(colour: Colour, percent: u16) -> Colour {
     let mut mixed = colour;
     let mut channel = 0;

@@ -1,4 +1,4 @@
-//! The stage on which an event plays: what does not change, and the frames of what does.
+//! The renderer of an event: a background that stays, and frames of the bodies that move.
 
 use crate::{
     Annotation, Frame, Overlay, Palette, RenderError, Style,
@@ -26,11 +26,11 @@ pub struct SceneRenderer {
 }
 
 impl SceneRenderer {
-    /// A stage for the events of one physique.
+    /// A renderer for the events of one physique.
     ///
     /// # Errors
-    /// [`RenderError::Style`] if the style's sizes are out of range; [`Style::default`] never is. [`RenderError::Font`]
-    /// if the embedded font cannot be parsed, which a test excludes.
+    /// [`RenderError::Style`] if the style's sizes are out of range; [`Style::default`] never is.
+    /// [`RenderError::Font`] if the embedded font cannot be parsed, which a test excludes.
     pub fn new(physics: &PhysicsConfig, style: Style) -> Result<Self, RenderError> {
         style.validate()?;
         let mut pixmap = Pixmap::new(style.width(), style.height()).ok_or_else(|| RenderError::Style {
@@ -50,7 +50,7 @@ impl SceneRenderer {
         Ok(Self { physics: physics.clone(), style, font, background: painter.pixmap })
     }
 
-    /// Draws a state; with an overlay also what an agent sees and believes of it, the title and captions.
+    /// Draws a state; with an overlay also an agent's view and beliefs, the title and captions.
     ///
     /// Bodies whose pose is not finite, or which lie outside the picture, are left out.
     #[must_use]
@@ -68,9 +68,9 @@ impl SceneRenderer {
         Frame::of(painter.pixmap)
     }
 
-    /// The same stage with what an agent sees and believes drawn into its background, less title and captions: its frames are
-    /// those that [`frame`](Self::frame) draws with the overlay, at the cost of frames without. Field of view and belief stay the
-    /// same for all frames of a step.
+    /// A renderer with an agent's view and beliefs, but no title and captions, drawn into its background. Its
+    /// frames are those that [`frame`](Self::frame) draws with the overlay, at the cost of frames without.
+    /// Useful for the frames of one step, in which view and beliefs do not change.
     #[must_use]
     pub fn with_backdrop(&self, overlay: &Overlay<'_>) -> Self {
         let mut painter = Painter { pixmap: self.background.clone(), view: View::of(&self.style) };
@@ -153,7 +153,8 @@ pub(crate) fn draw_walls(painter: &mut Painter, walls: &[Segment], palette: &Pal
         painter.polygon(&[a - across, b - across, b + across, a + across], ink, 255);
     }
     let square = |grow: f32| {
-        let (low, high) = (arena::MIN - Vec2::splat(grow), arena::MAX + Vec2::splat(grow));
+        let low = arena::MIN - Vec2::splat(grow);
+        let high = arena::MAX + Vec2::splat(grow);
         [low, Vec2::new(high.x, low.y), high, Vec2::new(low.x, high.y)]
     };
     painter.frame(&square(BOUNDARY_THICKNESS), &square(0.0), ink, 255);

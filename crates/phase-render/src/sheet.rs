@@ -18,8 +18,8 @@ pub fn contact_sheet(frames: &[Frame], columns: usize) -> Result<Frame, RenderEr
     compose(frames, columns, GAP)
 }
 
-/// Puts frames of one size beside each other, [`GAP`] apart, without a border: `n` frames `w` pixels wide make a
-/// picture `n · w + (n − 1) · GAP` wide.
+/// Puts frames of one size beside each other, [`GAP`] apart, without a border: `n` frames `w` pixels wide
+/// make a picture `n · w + (n − 1) · GAP` wide.
 ///
 /// # Errors
 /// As for [`contact_sheet`].
@@ -30,9 +30,11 @@ pub fn side_by_side(frames: &[Frame]) -> Result<Frame, RenderError> {
 /// Frames in rows with a border around them (pixels).
 fn compose(frames: &[Frame], columns: usize, border: u32) -> Result<Frame, RenderError> {
     let first = frames.first().ok_or(RenderError::NoFrames("contact sheet"))?;
-    let (width, height) = (first.width(), first.height());
+    let width = first.width();
+    let height = first.height();
     for (index, frame) in frames.iter().enumerate() {
-        let (found_width, found_height) = (frame.width(), frame.height());
+        let found_width = frame.width();
+        let found_height = frame.height();
         if (found_width, found_height) != (width, height) {
             return Err(RenderError::FrameSize { index, found_width, found_height, width, height });
         }

@@ -1,12 +1,12 @@
-//! How a picture is laid out.
+//! The layout of a picture.
 
 use crate::{Palette, RenderError};
 
 /// Lines of text that the legend takes.
 pub const LEGEND_LINES: u32 = 2;
 
-/// How a picture is laid out: a square with the arena in the middle; above it room for a title, below it for a legend
-/// and captions.
+/// The layout of a picture: a square with the arena in the middle; above it room for a title, below it for a
+/// legend and captions.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Style {
     /// Side of the square (pixels), 64 to 2000.
@@ -19,7 +19,8 @@ pub struct Style {
     pub legend: bool,
     /// Lines of text below the square and the legend, 0 to 16.
     pub caption_lines: u32,
-    /// Lines of text as high as the strip below the captions in which a [`crate::annotation::Course`] is drawn, 0 to 16.
+    /// Height of the strip below the captions in which a [`crate::annotation::Course`] is drawn (lines of
+    /// text), 0 to 16.
     pub course_lines: u32,
     /// The colours.
     pub palette: Palette,
@@ -29,8 +30,8 @@ pub struct Style {
 const LEGEND_GAP: u32 = 6;
 
 impl Default for Style {
-    /// 480 × 480 pixels without title, legend and captions. An arena unit is 22 pixels, so that whole units fall on the 2 × 2
-    /// blocks in which video keeps colour and straight edges stay crisp.
+    /// 480 × 480 pixels without title, legend and captions. An arena unit is 22 pixels, so that whole units
+    /// fall on the 2 × 2 blocks in which video keeps colour and straight edges stay crisp.
     fn default() -> Self {
         Self {
             side: 480,
@@ -64,7 +65,7 @@ impl Style {
         self.course_top().saturating_add(self.course_height()).saturating_add(margin)
     }
 
-    /// Where the strip with the course begins (pixels from the top).
+    /// Top of the strip with the course (pixels from the top).
     #[must_use]
     pub const fn course_top(&self) -> u32 {
         self.caption_top().saturating_add(self.caption_lines.saturating_mul(self.line_height()))
@@ -76,8 +77,8 @@ impl Style {
         self.course_lines.saturating_mul(self.line_height())
     }
 
-    /// Size of text (pixels per em): 13 at the default size, and never below 11, which is the smallest that is easy to
-    /// read.
+    /// Size of text (pixels per em): 13 at the default size, and never below 11, which is the smallest that
+    /// is easy to read.
     #[must_use]
     pub const fn text_size(&self) -> u32 {
         let proportional = self.side.saturating_mul(13) / 480;
@@ -108,13 +109,13 @@ impl Style {
         if self.title { self.line_height() } else { 0 }
     }
 
-    /// Where the legend begins (pixels from the top).
+    /// Top of the legend (pixels from the top).
     #[must_use]
     pub const fn legend_top(&self) -> u32 {
         self.title_height().saturating_add(self.side)
     }
 
-    /// Where the captions begin (pixels from the top).
+    /// Top of the captions (pixels from the top).
     #[must_use]
     pub const fn caption_top(&self) -> u32 {
         let legend =
@@ -125,7 +126,7 @@ impl Style {
     /// Checks that the fields lie in the ranges given with them.
     ///
     /// # Errors
-    /// [`RenderError::Style`] for the first that does not.
+    /// [`RenderError::Style`] for the first field that does not.
     pub fn validate(&self) -> Result<(), RenderError> {
         let check = |field, low: u32, high: u32, found: u32| {
             if (low..=high).contains(&found) {

@@ -4,17 +4,17 @@ use crate::{Colour, RenderError, font::Font};
 use std::borrow::Cow;
 use tiny_skia::{Pixmap, PremultipliedColorU8};
 
-/// What stands for the part of a text that does not fit.
+/// Mark in place of the part of a text that does not fit.
 const ELLIPSIS: char = '…';
 
-/// Which part of a text lies at the given position.
+/// The part of a text that lies at the given position.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Align {
-    /// Its left end.
+    /// The left end.
     Left,
-    /// Its middle.
+    /// The middle.
     Centre,
-    /// Its right end.
+    /// The right end.
     Right,
 }
 
@@ -41,7 +41,7 @@ impl SizedFont {
     }
 
     /// The text if it is at most `available` pixels wide; otherwise as much of its beginning as fits with an
-    /// ellipsis behind it, which is nothing where not even the ellipsis fits.
+    /// ellipsis behind it. Empty if not even the ellipsis fits.
     #[must_use]
     pub fn clip<'a>(&self, text: &'a str, available: f32) -> Cow<'a, str> {
         if self.width(text) <= available {
@@ -66,8 +66,8 @@ impl SizedFont {
         top as i32 + (0.5 * (height as f32 + capitals)).round() as i32
     }
 
-    /// Draws a text with the part named by `align` at `x` and its baseline at `baseline` (pixels, y down). What lies
-    /// outside of the picture is left out.
+    /// Draws a text with the part named by `align` at `x` and its baseline at `baseline` (pixels, y down).
+    /// Parts outside of the picture are left out.
     pub(crate) fn draw(
         &self,
         pixmap: &mut Pixmap,
@@ -107,7 +107,8 @@ impl SizedFont {
 
 /// Mixes an opaque pixel with a colour by the share of it that is covered. In whole numbers from here on.
 fn blend(pixmap: &mut Pixmap, x: i32, y: i32, coverage: f32, colour: Colour) {
-    let (width, height) = (pixmap.width() as i32, pixmap.height() as i32);
+    let width = pixmap.width() as i32;
+    let height = pixmap.height() as i32;
     if !(0..width).contains(&x) || !(0..height).contains(&y) {
         return;
     }

@@ -1,4 +1,4 @@
-//! Frames into an .mp4.
+//! The encoder of frames into an .mp4.
 
 use crate::{Frame, RenderError, yuv::Planes};
 use muxide::api::{Muxer, MuxerBuilder, VideoCodec};
@@ -79,8 +79,11 @@ impl<W: Write> VideoEncoder<W> {
     /// # Errors
     /// [`RenderError::FrameSize`] if the frame is not of the video's size, or an error of the encoder.
     pub fn push(&mut self, frame: &Frame) -> Result<(), RenderError> {
-        let (index, width, height) = (self.frame_count, self.width, self.height);
-        let (found_width, found_height) = (frame.width(), frame.height());
+        let index = self.frame_count;
+        let width = self.width;
+        let height = self.height;
+        let found_width = frame.width();
+        let found_height = frame.height();
         if (found_width, found_height) != (width, height) {
             return Err(RenderError::FrameSize { index, found_width, found_height, width, height });
         }
@@ -112,7 +115,8 @@ impl<W: Write> VideoEncoder<W> {
 
     /// Writes the .mp4 and gives the writer back, not flushed.
     ///
-    /// A video of a single frame has no length to speak of (1/90000 s), as there is no second frame to end it.
+    /// A video of a single frame has no length to speak of (1/90000 s), as there is no second frame to end
+    /// it.
     ///
     /// # Errors
     /// [`RenderError::NoFrames`] if no frame was added, [`RenderError::Container`] if the writer fails.

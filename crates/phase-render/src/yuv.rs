@@ -1,10 +1,10 @@
-//! From red, green and blue to the luma and colour planes of video.
+//! The conversion of red, green and blue to the luma and colour planes of video.
 
 /// A picture as H.264 wants it: a plane of luma and two planes of colour at half the width and height
 /// (4:2:0), after BT.709 with luma from 16 to 235.
 ///
-/// Integer arithmetic only: the encoder's own conversion uses whatever vector instructions the machine has,
-/// and a video should not depend on them.
+/// Integer arithmetic only: the encoder's own conversion uses the vector instructions of the machine, on
+/// which a video should not depend.
 #[derive(Clone, Debug)]
 pub struct Planes {
     width: usize,
@@ -16,7 +16,7 @@ pub struct Planes {
     last: Vec<u8>,
 }
 
-/// Two are equal if their planes are, whatever pictures they came from.
+/// Two are equal if their planes are; the picture last read does not count.
 impl PartialEq for Planes {
     fn eq(&self, other: &Self) -> bool {
         (self.width, self.height) == (other.width, other.height)
@@ -30,7 +30,8 @@ impl Planes {
     /// Black planes for pictures of a size (pixels); an odd width or height is rounded down.
     #[must_use]
     pub fn new(width: u32, height: u32) -> Self {
-        let (width, height) = ((width & !1) as usize, (height & !1) as usize);
+        let width = (width & !1) as usize;
+        let height = (height & !1) as usize;
         let quarter = width * height / 4;
         Self {
             width,
@@ -48,7 +49,8 @@ impl Planes {
         if self.width == 0 {
             return;
         }
-        let (pairs_of_rows, half) = (rgba.chunks_exact(8 * self.width), self.width / 2);
+        let pairs_of_rows = rgba.chunks_exact(8 * self.width);
+        let half = self.width / 2;
         let lumas = self.luma.chunks_exact_mut(2 * self.width);
         let colours = self.blue.chunks_exact_mut(half).zip(self.red.chunks_exact_mut(half));
         let mut last = self.last.chunks_exact(8 * self.width);

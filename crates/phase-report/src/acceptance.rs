@@ -1,4 +1,4 @@
-//! How many scenes were tried for a dataset, as a table.
+//! The numbers of scenes that were tried for a dataset, as a table.
 
 use phase_dataset::acceptance::Acceptance;
 

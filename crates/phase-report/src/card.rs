@@ -15,8 +15,8 @@ const VIDEOS: &str = "| `videos/<id>.mp4` | H.264, 20 frames a second, five fram
 const SET_VIDEOS: &str = "| `videos/<set>.mp4` | the events of a set side by side |\n";
 const SETS: &str = "| `pairs.csv` | where and when every two events of a set part |\n";
 
-/// The dataset's file for people: what it is, how it was generated, what it contains, and its licence. `shortcuts` tells
-/// what can be predicted without looking at motion, in Markdown.
+/// The dataset's file for people: what it is, how it was generated, what it contains, and its licence.
+/// `shortcuts` tells what can be predicted without looking at motion, in Markdown.
 #[must_use]
 pub fn card(overview: &Overview, command: &str, shortcuts: &str) -> String {
     let has_videos = overview.videos;
@@ -82,7 +82,7 @@ const fn selected(overview: &Overview) -> &'static str {
     }
 }
 
-/// What the events are, in two sentences.
+/// Description of the events, in two sentences.
 #[must_use]
 pub const fn about() -> &'static str {
     "Physically grounded social events: two agents see, believe, plan and act in a physical world, and what they \

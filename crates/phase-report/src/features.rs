@@ -1,7 +1,7 @@
 //! The columns of a dataset as features of the `datasets` library, for the front matter of its card.
 //!
-//! With them `load_dataset` gives classes instead of strings for kind, relation and split, and lists of fixed lengths where
-//! lengths are fixed.
+//! With them `load_dataset` gives classes instead of strings for kind, relation and split, and lists of fixed
+//! lengths where lengths are fixed.
 
 use phase_dataset::{
     parquet::{self, Description},

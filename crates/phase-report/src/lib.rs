@@ -1,7 +1,7 @@
 //! Reports on PHASE datasets and evaluations for people: pages, cards and tables.
 //!
-//! - [`evaluation`] reports how well a method, or a benchmark of many, perceives events, beside the [`published`]
-//!   results.
+//! - [`evaluation`] reports how well a method, or a benchmark of many, perceives events, beside the
+//!   [`published`] results.
 //! - [`gallery`] is a dataset's page with every video, [`card`] its dataset card, [`mod@statistics`] the
 //!   paper's figures compared with its own, and [`acceptance`] and [`summary`] are tables of how it was
 //!   generated and how simulations compare with recordings.

@@ -5,7 +5,7 @@
 pub struct GoalRow {
     /// The method.
     pub method: &'static str,
-    /// Where it is published.
+    /// The publication.
     pub source: &'static str,
     /// Goal accuracy of the one, two and three most likely.
     pub goal: [f64; 3],
@@ -18,7 +18,7 @@ pub struct GoalRow {
 pub struct TrajectoryRow {
     /// The method.
     pub method: &'static str,
-    /// Where it is published.
+    /// The publication.
     pub source: &'static str,
     /// Average displacement error: independent, social, all events.
     pub ade: [f64; 3],

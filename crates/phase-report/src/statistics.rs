@@ -11,27 +11,27 @@ use std::collections::{BTreeMap, BTreeSet};
 /// The composition of a dataset.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Statistics {
-    /// Events.
+    /// Number of events.
     pub events: usize,
-    /// How many events there are of each length (steps).
+    /// Number of events of each length (steps).
     pub lengths: BTreeMap<usize, usize>,
-    /// How many agents there are with each goal; see [`phase_dataset::labels::goal_label`].
+    /// Number of agents with each goal; see [`phase_dataset::labels::goal_label`].
     pub goals: BTreeMap<String, usize>,
-    /// How many events show each relation.
+    /// Number of events that show each relation.
     pub relations: BTreeMap<Relation, usize>,
-    /// How many events there are of each kind.
+    /// Number of events of each kind.
     pub kinds: BTreeMap<EventKind, usize>,
-    /// Different layouts.
+    /// Number of different layouts.
     pub layouts: usize,
-    /// How many events are in each part, and how many of the test events are in unseen layouts and of a type of
-    /// their own; `None` if some event is in no part.
+    /// Number of events in each part, and numbers of test events in unseen layouts and of a type of their
+    /// own; `None` if some event is in no part.
     pub parts: Option<[usize; 5]>,
 }
 
-/// One figure.
+/// One figure of a dataset.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct StatisticsRow {
-    /// In words.
+    /// The name of the figure, in words.
     pub what: &'static str,
     /// The paper's value.
     pub paper: &'static str,
@@ -40,7 +40,7 @@ pub struct StatisticsRow {
 }
 
 impl Statistics {
-    /// Of a dataset.
+    /// The composition of a dataset.
     #[must_use]
     pub fn of(manifest: &Manifest) -> Self {
         let events = &manifest.events;

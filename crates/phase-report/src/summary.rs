@@ -52,7 +52,8 @@ fn motion(row: &KindRow) -> String {
     let speed = |of: &MotionQuartiles| three(of.speed, 1.0, 1);
     let path = |of: &MotionQuartiles| three(of.path, 1.0, 1);
     let contact = |of: &MotionQuartiles| three(of.contact, 100.0, 0);
-    let (theirs, ours) = (&row.recorded_motion, &row.simulated_motion);
+    let theirs = &row.recorded_motion;
+    let ours = &row.simulated_motion;
     format!(
         "{:<14} {:>22} {:>16}   {:>18} {:>18}   {:>21} {:>14}\n",
         name(row),

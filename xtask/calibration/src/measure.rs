@@ -12,7 +12,8 @@ pub fn probes_report<E: Engine>(probes: &[Probe]) -> ProbesReport {
     let mut families: BTreeMap<&str, Vec<ProbeErrors>> = BTreeMap::new();
     let mut each = Vec::with_capacity(probes.len());
     for probe in probes {
-        let (followed, family) = (probe.follow::<E>(), family(&probe.name));
+        let followed = probe.follow::<E>();
+        let family = family(&probe.name);
         each.extend(probe_report(&probe.name, family, &followed));
         families.entry(family).or_default().push(followed);
     }
@@ -62,7 +63,8 @@ fn probe_report(name: &str, family: &str, followed: &ProbeErrors) -> Option<Prob
 
 fn family_report(all: &[ProbeErrors]) -> Option<FamilyReport> {
     let pooled = |of: fn(&ProbeErrors) -> &[Deviation]| all.iter().flat_map(of).copied().collect::<Vec<_>>();
-    let (steps, substeps) = (pooled(|followed| &followed.steps), pooled(|followed| &followed.substeps));
+    let steps = pooled(|followed| &followed.steps);
+    let substeps = pooled(|followed| &followed.substeps);
     let (positions, angles) = columns(&steps);
     let (substep_positions, substep_angles) = columns(&substeps);
     Some(FamilyReport {

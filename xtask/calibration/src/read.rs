@@ -126,7 +126,8 @@ impl<'a> Entry<'a> {
             self.take("actions", "two lists of names of actions")?;
         let [first, second] = &lists;
         if first.is_empty() || first.len() != second.len() {
-            let (first, second) = (first.len(), second.len());
+            let first = first.len();
+            let second = second.len();
             let rule = format!("must be two lists of one length, at least 1, not {first} and {second}");
             return Err(self.error("actions", rule));
         }

@@ -66,7 +66,8 @@ impl Run {
 /// relative angle.
 #[must_use]
 pub fn grip_of(state: &State, agent: AgentId, object: ObjectId) -> Grip {
-    let (holder, object_body) = (state.body(Entity::Agent(agent)), state.body(Entity::Object(object)));
+    let holder = state.body(Entity::Agent(agent));
+    let object_body = state.body(Entity::Object(object));
     let right = Vec2::from_angle(holder.angle);
     let between = object_body.position - holder.position;
     let local = Vec2::new(between.dot(right), between.dot(right.perp()));

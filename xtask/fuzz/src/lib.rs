@@ -6,7 +6,8 @@
 //!
 //! let mut random = stream(1, Purpose::Scene, 0);
 //! let physics = physique(&mut random);
-//! let state = start(&physics, Start::Odd, &mut random).expect("there is always room for overlapping bodies");
+//! let state = start(&physics, Start::Odd, &mut random);
+//! let state = state.expect("there is always room for overlapping bodies");
 //! assert!(state.is_finite(&physics));
 //! assert_eq!(actions(Doing::Anything, 20, &mut random).len(), 20);
 //! ```

@@ -200,7 +200,8 @@ pub fn deepest_overlap(physics: &PhysicsConfig, state: &State, least: f32) -> Op
                 continue;
             }
             let smaller = physics.radius(a).min(physics.radius(b));
-            let (mut low, mut high) = (least, smaller);
+            let mut low = least;
+            let mut high = smaller;
             for _ in 0..12 {
                 let middle = f32::midpoint(low, high);
                 if overlap(middle) { low = middle } else { high = middle }

@@ -10,7 +10,7 @@ use crate::{
 use clap::{Args, value_parser};
 use core::ops::ControlFlow;
 use phase_cli::{context::Context, parallel::Jobs};
-use phase_event::Recording;
+use phase_event::{ProgressCallback, Recording};
 use phase_files::checksum::{hexadecimal, sha256};
 use phase_runs::{error::RunError, event_writer::program, interrupt::requested, parallel::make_all, words};
 use serde::{Serialize, de::DeserializeOwned};
@@ -117,7 +117,7 @@ impl<'a, T: Clone + Send + Sync + Serialize + DeserializeOwned> KeptFigures<'a, 
         activity: &str,
         recordings: &[&Recording],
         ticks: usize,
-        compute: impl Fn(&Recording, &mut dyn FnMut() -> ControlFlow<()>) -> Result<Option<T>, RunError> + Sync,
+        compute: impl Fn(&Recording, ProgressCallback<'_>) -> Result<Option<T>, RunError> + Sync,
     ) -> Result<Vec<T>, LabError> {
         let activity = format!("{activity} of {}", words::events(recordings.len()));
         let progress = self.context.progress(&activity, recordings.len(), ticks);

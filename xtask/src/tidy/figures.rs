@@ -35,16 +35,15 @@ pub(super) fn table(workspace: &mut Workspace) -> String {
     }));
     lines.push(format!("\n{LEGEND}\n"));
     for (name, figures) in &rows {
+        let found = figures.source();
         for (_, most) in MOST.into_iter().filter(|goal| goal.0 == *name) {
-            let found = figures.source();
-            lines
-                .push(format!("{name}: {found} lines of source, at most {most}: {}", verdict(found <= most)));
+            let verdict = verdict(found <= most);
+            lines.push(format!("{name}: {found} lines of source, at most {most}: {verdict}"));
         }
         if *name == "all" {
-            let found = share(figures.tests, figures.source());
-            let is_met = found >= LEAST_TESTS;
-            lines
-                .push(format!("all: ratio of tests {found:.2}, at least {LEAST_TESTS}: {}", verdict(is_met)));
+            let found = share(figures.tests, found);
+            let verdict = verdict(found >= LEAST_TESTS);
+            lines.push(format!("all: ratio of tests {found:.2}, at least {LEAST_TESTS}: {verdict}"));
         }
     }
     lines.join("\n")

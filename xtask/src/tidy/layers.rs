@@ -50,11 +50,8 @@ fn check_uses(workspace: &mut Workspace, name: &str, manifest: &Path) {
         }
         match section {
             "[dependencies]" => {
-                workspace.report(
-                    manifest,
-                    k + 1,
-                    format!("{name} must not use {used}, which is not below it"),
-                );
+                let rule = format!("{name} must not use {used}, which is not below it");
+                workspace.report(manifest, k + 1, rule);
             }
             // Tests may use crates of higher layers. With a version these would have to be published before
             // this crate is.

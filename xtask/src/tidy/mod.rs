@@ -11,7 +11,7 @@ mod words;
 
 pub use layers::layers;
 
-use crate::error::XtaskError;
+use crate::{error::XtaskError, results::root};
 use clap::Args;
 use phase_cli::console::{print_message, print_result};
 use scan::Source;
@@ -50,12 +50,11 @@ pub struct Tidy {
 /// # Errors
 /// [`XtaskError::Untidy`] if a rule is broken.
 pub fn run(options: &Tidy) -> Result<(), XtaskError> {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap_or(Path::new("."));
     if options.figures {
-        print_result(figures::table(&mut Workspace { root: root.to_owned(), findings: Vec::new() }));
+        print_result(figures::table(&mut Workspace { root: root().to_owned(), findings: Vec::new() }));
         return Ok(());
     }
-    let findings = check(root);
+    let findings = check(root());
     for finding in &findings {
         print_message(finding);
     }
@@ -178,14 +177,11 @@ impl Workspace {
     }
 }
 
-fn walk(folder: &Path, found: &mut Vec<PathBuf>) -> io::Result<()> {
+/// Adds all files below a folder.
+pub(crate) fn walk(folder: &Path, found: &mut Vec<PathBuf>) -> io::Result<()> {
     for entry in fs::read_dir(folder)? {
         let path = entry?.path();
-        if path.is_dir() {
-            walk(&path, found)?;
-        } else {
-            found.push(path);
-        }
+        if path.is_dir() { walk(&path, found)? } else { found.push(path) }
     }
     Ok(())
 }

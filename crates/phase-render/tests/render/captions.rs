@@ -60,7 +60,8 @@ fn captions_that_do_not_fit_end_in_an_ellipsis_within_the_margins() {
 fn a_title_stands_above_the_arena_and_moves_it_down() {
     let style = Style { title: true, ..Style::default() };
     let titled = SceneRenderer::new(&physics(), style).expect("a valid style");
-    let (blank, frame) = (draw(&titled, "", &[]), draw(&titled, "Agent 0 (red)", &[]));
+    let blank = draw(&titled, "", &[]);
+    let frame = draw(&titled, "Agent 0 (red)", &[]);
     assert_eq!(frame.height(), 480 + 18);
     let rows = rows_that_differ(&blank, &frame);
     // The boundary is 2 pixels thick and lies around the arena, which begins 20 below the title.
@@ -111,7 +112,8 @@ fn a_course_is_stacked_from_the_left() {
     let course = Course { shares: &shares, times: 4 };
     let frame = renderer.annotated(&state(), &Annotation { course: Some(course), ..Annotation::default() });
     let palette = Palette::default();
-    let (top, bottom) = (style.course_top(), style.course_top() + style.course_height() - 1);
+    let top = style.course_top();
+    let bottom = style.course_top() + style.course_height() - 1;
     // The arena is 440 pixels wide, a time 110.
     for (x, y, colour) in [
         (20, bottom, palette.shares[0]),

@@ -26,7 +26,8 @@ fn the_chart_shows_every_layout_in_every_mirror() {
             ] {
                 let point = phase_model::Vec2::new(x, y);
                 let walled = walls.iter().any(|wall| wall.distance(point) == 0.0);
-                let (across, down) = (left + (5.0 * (x - 6.0)) as u32, top + (5.0 * (22.0 - y)) as u32);
+                let across = left + (5.0 * (x - 6.0)) as u32;
+                let down = top + (5.0 * (22.0 - y)) as u32;
                 // A wall of 0.25 u covers more of one of the two pixels beside the line than half.
                 let seen = dark(across, down) || dark(across - 1, down) || dark(across, down - 1);
                 assert_eq!(seen, walled, "layout {base} {flip:?} at ({x}, {y})");

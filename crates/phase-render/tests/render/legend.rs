@@ -23,8 +23,10 @@ fn draw(style: Style, visible: &CellSet) -> Frame {
 
 /// The colours in an entry's third of its line: those of its sample, then those of its label.
 fn colours(frame: &Frame, style: &Style, entry: u32) -> [Vec<[u8; 3]>; 2] {
-    let (line, third) = (style.line_height(), style.text_width() / 3);
-    let (left, top) = (style.margin + entry % 3 * third, style.legend_top() + entry / 3 * line);
+    let line = style.line_height();
+    let third = style.text_width() / 3;
+    let left = style.margin + entry % 3 * third;
+    let top = style.legend_top() + entry / 3 * line;
     let split = 5 * line / 4 + style.text_size() / 2;
     [left..left + 5 * line / 4, left + split..left + third].map(|columns| {
         columns.flat_map(|x| (top..top + line).filter_map(move |y| frame.pixel(x, y))).collect()
@@ -33,7 +35,8 @@ fn colours(frame: &Frame, style: &Style, entry: u32) -> [Vec<[u8; 3]>; 2] {
 
 #[test]
 fn samples_have_the_colours_of_what_they_explain() {
-    let (style, palette) = (style(1), Palette::default());
+    let style = style(1);
+    let palette = Palette::default();
     let visible: CellSet = Cell::all().filter(|&cell| Cell::min(cell).x >= 12.0).collect();
     let frame = draw(style, &visible);
     let renderer = SceneRenderer::new(&physics(), style).expect("a valid style");
@@ -76,8 +79,8 @@ fn labels_fit_at_the_sizes_in_use() {
 #[test]
 fn a_legend_takes_its_lines_and_leaves_the_rest_alone() {
     let style = style(0);
-    let (with, without) =
-        (draw(style, &CellSet::EMPTY), draw(Style { legend: false, ..style }, &CellSet::EMPTY));
+    let with = draw(style, &CellSet::EMPTY);
+    let without = draw(Style { legend: false, ..style }, &CellSet::EMPTY);
     assert_eq!(with.height(), without.height() + LEGEND_LINES * style.line_height() + 6);
     let size = without.rgba().len();
     assert!(with.rgba()[..size] == *without.rgba());
@@ -91,7 +94,8 @@ fn a_legend_takes_its_lines_and_leaves_the_rest_alone() {
 fn the_legend_does_not_depend_on_what_is_shown() {
     let renderer = SceneRenderer::new(&physics(), style(2)).expect("a valid style");
     let legend = |frame: Frame| frame.rgba()[480 * 480 * 4..].to_vec();
-    let (state, visible): (State, CellSet) = (state(), Cell::all().collect());
+    let state: State = state();
+    let visible: CellSet = Cell::all().collect();
     let overlay =
         Overlay { agent: AgentId::ONE, visible: &visible, particles: &[state; 3], title: "", captions: &[] };
     assert!(legend(renderer.frame(&state, None)) == legend(renderer.frame(&state, Some(&overlay))));

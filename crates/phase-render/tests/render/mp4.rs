@@ -14,7 +14,8 @@ pub(crate) fn word(bytes: &[u8], at: usize) -> u32 {
 
 /// The boxes side by side in some bytes; they must fill them exactly.
 pub(crate) fn boxes(bytes: &[u8]) -> Vec<Mp4Box<'_>> {
-    let (mut found, mut at) = (Vec::new(), 0);
+    let mut found = Vec::new();
+    let mut at = 0;
     while at < bytes.len() {
         let size = word(bytes, at) as usize;
         assert!(size >= 8 && at + size <= bytes.len(), "a box of {size} bytes at {at}");
@@ -46,7 +47,8 @@ pub(crate) fn pictures(bytes: &[u8]) -> Vec<Vec<u8>> {
     let mut pictures = Vec::new();
     for k in 0..word(sizes, 8) as usize {
         let size = word(sizes, 12 + 4 * k) as usize;
-        let (mut sample, mut picture) = (&bytes[at..at + size], Vec::new());
+        let mut sample = &bytes[at..at + size];
+        let mut picture = Vec::new();
         while !sample.is_empty() {
             let length = word(sample, 0) as usize;
             picture.extend([0, 0, 0, 1]);

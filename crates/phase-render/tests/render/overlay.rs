@@ -63,7 +63,8 @@ fn no_seams_between_cells_at_any_size() {
             Some(&Overlay { agent: AgentId::ZERO, visible: &none, particles: &[], title: "", captions: &[] }),
         );
         let inside = |x: f32, y: f32| renderer.pixel(Vec2::new(x, y));
-        let (from, to) = (inside(11.5, 16.5), inside(20.5, 7.5));
+        let from = inside(11.5, 16.5);
+        let to = inside(20.5, 7.5);
         let first = frame.pixel(from.x as u32, from.y as u32).unwrap();
         for y in from.y as u32..to.y as u32 {
             for x in from.x as u32..to.x as u32 {
@@ -92,7 +93,9 @@ fn beliefs_are_faint_and_add_up() {
     let palette = Palette::default();
     for (entity, colour) in [(1, palette.agents[1]), (2, palette.objects[0]), (3, palette.objects[1])] {
         let distance = |a: [u8; 3]| -> u32 { (0..3).map(|k| u32::from(a[k].abs_diff(colour[k]))).sum() };
-        let (one, ten, many) = (believe(entity, 1), believe(entity, 10), believe(entity, 60));
+        let one = believe(entity, 1);
+        let ten = believe(entity, 10);
+        let many = believe(entity, 60);
         assert_ne!(one, floor, "one particle of entity {entity} shows");
         assert!(distance(one) < distance(floor), "towards its colour");
         assert!(distance(ten) < distance(one), "ten are clearer");
@@ -124,9 +127,7 @@ fn an_agent_is_drawn_as_a_belief_of_the_other_only() {
         title: "",
         captions: &[],
     };
-    let (own, other) = (
-        renderer.frame(&state(), Some(&overlay(AgentId::ZERO))),
-        renderer.frame(&state(), Some(&overlay(AgentId::ONE))),
-    );
+    let own = renderer.frame(&state(), Some(&overlay(AgentId::ZERO)));
+    let other = renderer.frame(&state(), Some(&overlay(AgentId::ONE)));
     assert_ne!(own, other);
 }

@@ -1,8 +1,8 @@
 //! Which colours viewers can tell apart, with normal colour vision and without.
 //!
-//! Colour vision deficiency is simulated with the matrices of Machado, Oliveira and Fernandes ("A Physiologically-based
-//! Model for Simulation of Color Vision Deficiency", 2009) at severity 1, applied to linear RGB. Differences are
-//! Euclidean in CIELAB (D65): ΔE*ab, of which about 2.3 are just noticeable.
+//! Colour vision deficiency is simulated with the matrices of Machado, Oliveira and Fernandes ("A
+//! Physiologically-based Model for Simulation of Color Vision Deficiency", 2009) at severity 1, applied to
+//! linear RGB. Differences are Euclidean in CIELAB (D65): ΔE*ab, of which about 2.3 are just noticeable.
 
 use phase_render::{Colour, Palette, PaletteName};
 
@@ -40,7 +40,8 @@ fn lab(colour: Colour, vision: Matrix) -> [f64; 3] {
 }
 
 fn difference(a: Colour, b: Colour, vision: Matrix) -> f64 {
-    let (a, b) = (lab(a, vision), lab(b, vision));
+    let a = lab(a, vision);
+    let b = lab(b, vision);
     (0..3).map(|k| (a[k] - b[k]).powi(2)).sum::<f64>().sqrt()
 }
 
@@ -103,7 +104,8 @@ fn things_of_a_kind_differ_in_lightness_too() {
             }
         }
         let floor = palette.background;
-        let (seen, unseen) = (under(floor, palette.seen, 45), under(floor, palette.unseen, 120));
+        let seen = under(floor, palette.seen, 45);
+        let unseen = under(floor, palette.unseen, 120);
         assert!(lightness_difference(seen, unseen, vision) >= 20.0, "in and out of view");
         assert!(lightness_difference(palette.ink, palette.bar, vision) >= 70.0, "text on a bar");
     }

@@ -80,7 +80,8 @@ fn eyes_show_the_heading() {
     for angle in [0.0, FRAC_PI_2, PI, -FRAC_PI_2, 0.7, 7.0] {
         let frame = renderer.frame(&alone(centre, angle), None);
         let (sin, cos) = f32::sin_cos(angle);
-        let (ahead, right) = (Vec2::new(-sin, cos), Vec2::new(cos, sin));
+        let ahead = Vec2::new(-sin, cos);
+        let right = Vec2::new(cos, sin);
         let look = |forward: f32, sideways: f32| {
             let point = centre + (ahead * forward + right * sideways) * RADII[0];
             at(&renderer, &frame, point.x, point.y)

@@ -21,7 +21,8 @@ fn frames_keep_their_pixels() {
         let sheet = contact_sheet(&frames, columns).unwrap();
         assert_eq!((sheet.width(), sheet.height()), (wide * 104 + 4, high * 104 + 4), "{columns} columns");
         for (k, frame) in (0..).zip(&frames) {
-            let (left, top) = (GAP + k % wide * 104, GAP + k / wide * 104);
+            let left = GAP + k % wide * 104;
+            let top = GAP + k / wide * 104;
             for (x, y) in (0..100).flat_map(|y| (0..100).map(move |x| (x, y))) {
                 assert_eq!(sheet.pixel(left + x, top + y), frame.pixel(x, y), "frame {k} at ({x}, {y})");
             }

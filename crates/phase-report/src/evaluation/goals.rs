@@ -14,7 +14,7 @@ use phase_eval::{
     },
 };
 
-/// How well goals and relations are recognised.
+/// The report of how well a method recognises goals and relations.
 #[must_use]
 pub fn goals(subject: Subject<'_>, summary: &RecognitionSummary) -> Document {
     let ours = subject.label();

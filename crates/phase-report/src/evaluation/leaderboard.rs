@@ -15,7 +15,7 @@ use std::collections::BTreeMap;
 
 /// The value of the field `format` of [`Scores`].
 pub const LEADERBOARD_FORMAT: &str = "phase-leaderboard/1";
-/// What the table says where a method was not asked.
+/// Text of the table where a method was not asked.
 const NOTHING: &str = "–";
 
 /// The scores of all predictions that were handed in.
@@ -37,9 +37,9 @@ pub struct Score {
     pub set: String,
     /// Digest of the file of predictions.
     pub predictions: String,
-    /// Digest of the events, as [`phase_eval::benchmark::EventSet`] has it.
+    /// Digest of the events, as in [`phase_eval::benchmark::EventSet`].
     pub events: String,
-    /// What was measured.
+    /// The measures.
     #[serde(flatten)]
     pub measures: Measures,
 }
@@ -54,7 +54,8 @@ pub enum Measures {
         top1: Estimate,
         /// The most likely relation is the intended one.
         relation: Estimate,
-        /// All goals and relations of a set of events that differ in one social variable; of events in such sets only.
+        /// All goals and relations of a set of events that differ in one social variable; of events in such
+        /// sets only.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         whole_sets: Option<Estimate>,
     },
@@ -67,13 +68,13 @@ pub enum Measures {
     },
 }
 
-/// Who made a method that was handed in.
+/// The authors of a method that was handed in.
 #[derive(Clone, PartialEq, Eq, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Source {
-    /// Its authors.
+    /// The authors' names.
     pub by: String,
-    /// Where its code or description is.
+    /// Address of its code or description.
     pub source: String,
 }
 

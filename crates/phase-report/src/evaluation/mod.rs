@@ -13,7 +13,7 @@ pub use trajectories::trajectories;
 use phase_document::{document::Block, plot::bars};
 use phase_eval::Estimate;
 
-/// What a report is about.
+/// The subject of a report.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Subject<'a> {
     /// The method's name.

@@ -12,7 +12,7 @@ use phase_eval::{
 };
 use phase_event::SAMPLES;
 
-/// How well trajectories are predicted.
+/// The report of how well a method predicts trajectories.
 #[must_use]
 pub fn trajectories(subject: Subject<'_>, summary: &ForecastSummary) -> Document {
     let ours = subject.label();

@@ -1,5 +1,6 @@
 //! `index.html`: a page that opens offline and shows every video of a dataset with its labels, and the
-//! subgoals of its agents at every moment. A large dataset has a page for every thousand events, and `index.html` lists them.
+//! subgoals of its agents at every moment. A large dataset has a page for every thousand events, and
+//! `index.html` lists them.
 
 mod timeline;
 
@@ -22,12 +23,12 @@ const INDEX: &str = include_str!("../../assets/pages.html");
 const STYLE: &str = include_str!("../../assets/style.css");
 const SCRIPT: &str = include_str!("../../assets/script.js");
 
-/// Maximum number of events on a page; browsers get slow beyond.
+/// Maximum number of events on a page; with more, browsers get slow.
 pub const EVENTS_PER_PAGE: usize = 1000;
 /// Folder of the pages of a large dataset.
 pub const PAGES_FOLDER: &str = "pages";
 
-/// What all pages of a dataset have in common.
+/// Facts that all pages of a dataset show.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Gallery<'a> {
     /// Name of the preset.
@@ -80,7 +81,8 @@ impl Gallery<'_> {
         let (count, base) = if self.is_one_page() {
             (format!("{} events", self.events), "")
         } else {
-            let (from, to) = (number * EVENTS_PER_PAGE + 1, number * EVENTS_PER_PAGE + events.len());
+            let from = number * EVENTS_PER_PAGE + 1;
+            let to = number * EVENTS_PER_PAGE + events.len();
             (format!("Events {from} to {to} of {}", self.events), "<base href=\"../\">\n")
         };
         let back = if self.is_one_page() {
@@ -186,7 +188,7 @@ fn filters(events: &[EventEntry]) -> String {
     selects
 }
 
-/// The names of what is seen of helping, hindering and meeting.
+/// The names of the manners of helping, hindering and meeting that are seen.
 fn manners(event: &EventEntry) -> impl Iterator<Item = &'static str> {
     event.manners.iter().map(|manner| manner.name())
 }
@@ -199,7 +201,8 @@ fn goals(event: &EventEntry) -> Vec<String> {
 }
 
 fn card(event: &EventEntry) -> String {
-    let (id, kind) = (escape(&event.id), event.kind.name());
+    let id = escape(&event.id);
+    let kind = event.kind.name();
     let agents: String = AgentId::ALL.into_iter().map(|who| agent(who, &event.agents[who])).collect();
     let mut things = String::new();
     for (object, &level) in ObjectId::ALL.into_iter().zip(&event.object_size_levels) {
@@ -279,7 +282,7 @@ fn agent(who: AgentId, agent: &AgentEntry) -> String {
     )
 }
 
-/// A piece of a sentence as HTML; what has a colour in the video has it here.
+/// A piece of a sentence as HTML; things that have a colour in the video have it here.
 fn chip(piece: Fragment) -> String {
     let class = match piece {
         Fragment::Text(text) => return escape(text),

@@ -81,7 +81,8 @@ fn benchmark() -> Benchmark {
     }
 }
 
-/// Published rows come first, ours below; networks trained to show a curve are in their own table, fewest events first.
+/// Published rows come first, ours below; networks trained to show a curve are in their own table, fewest
+/// events first.
 #[test]
 fn rows_stand_where_they_belong() {
     let text = evaluation::benchmark(&benchmark()).to_markdown();
@@ -245,7 +246,8 @@ fn the_page_shows_the_same_figures_after_a_round_trip() {
 #[test]
 fn the_figures_of_the_page_make_the_same_page() {
     let mut whole = benchmark();
-    let (kinds, nothing) = ([[0; 3]; 3], 2);
+    let kinds = [[0; 3]; 3];
+    let nothing = 2;
     let mistakes = ErrorBreakdown { right: 0, sign: 0, landmark: 0, entity: 0, both: 0, kinds, nothing };
     whole.goals.push(goals_row(mistakes));
     let figures = evaluation::figures(&whole);

@@ -27,10 +27,12 @@ const CORPUS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/corpus");
 #[derive(Args, Debug)]
 pub(super) struct Fuzz {
     /// Time for each target (s)
-    #[arg(long, value_name = "N", default_value_t = 10, value_parser = value_parser!(u64).range(1..=1_000_000))]
+    #[arg(long, value_name = "N", default_value_t = 10,
+        value_parser = value_parser!(u64).range(1..=1_000_000))]
     seconds: u64,
     /// Only these targets [default: all]
-    #[arg(long, value_name = "NAMES", value_delimiter = ',', value_parser = PossibleValuesParser::new(TARGETS.map(|it| it.0)))]
+    #[arg(long, value_name = "NAMES", value_delimiter = ',',
+        value_parser = PossibleValuesParser::new(TARGETS.map(|it| it.0)))]
     targets: Vec<String>,
     /// Random seed of the mutations
     #[arg(long, value_name = "S", default_value_t = 1)]

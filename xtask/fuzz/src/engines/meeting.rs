@@ -110,6 +110,7 @@ fn two_agents(draw: &mut impl Draw) -> Option<(PhysicsConfig, State)> {
     /// Clearance at the start (u).
     const ROOM: f32 = 0.05;
     let mut outlines = physics.entities().map(|entity| outline(&physics, &start, entity, ROOM));
-    let (a, b) = (outlines.next()?, outlines.next()?);
+    let a = outlines.next()?;
+    let b = outlines.next()?;
     (!a.overlaps(&b) && a.inside_arena() && b.inside_arena()).then_some((physics, start))
 }

@@ -103,7 +103,8 @@ pub(super) fn pomcp(data: &[u8]) {
         convergence: f64::from(bytes.unit()) * f64::from(u8::from(bytes.below(2) == 0)),
         untried_first: bytes.below(2) == 0,
     };
-    let (actions, discount) = (bytes.below(6), f64::from(bytes.unit()));
+    let actions = bytes.below(6);
+    let discount = f64::from(bytes.unit());
     let noisy = bytes.below(2) == 0;
     let roots: Vec<u8> = (0..bytes.below(4)).map(|_| bytes.byte() % 16).collect();
     let seed = u64::from(bytes.byte());

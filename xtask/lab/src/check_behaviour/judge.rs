@@ -119,7 +119,8 @@ impl Case<'_> {
     }
 
     fn stay_out(&self, with: GoalOutcome, effect: Option<Effect>) -> Assessment {
-        let (helper, helpee) = (Entity::Agent(self.part.judged.other()), Entity::Agent(self.part.judged));
+        let helper = Entity::Agent(self.part.judged.other());
+        let helpee = Entity::Agent(self.part.judged);
         let touched = contact::steps_touching(self.track, helper, helpee).len();
         let good = with.reached && touched == 0 && effect.is_some_and(|effect| !effect.hindered());
         let way = self.track.distance_travelled(helper, 0..self.track.states.len());
@@ -172,7 +173,8 @@ impl Case<'_> {
     }
 
     fn chase(&self, effect: Option<Effect>) -> Assessment {
-        let (chaser, fleer) = (Pursuit::of(self.track, AgentId::ZERO), Pursuit::of(self.track, AgentId::ONE));
+        let chaser = Pursuit::of(self.track, AgentId::ZERO);
+        let fleer = Pursuit::of(self.track, AgentId::ONE);
         let chases = 2 * chaser.towards >= chaser.moving && chaser.moving >= MIN_VISIBLE_STEPS;
         let flees = effect.is_some_and(|effect| effect.hindered());
         let notes = format!(
@@ -208,7 +210,8 @@ impl Case<'_> {
             let rest = Rest::after(self.track, entity, from);
             if !rest.is_at_rest() {
                 quiet = false;
-                let (displacement, turned) = (rest.displacement, rest.turned);
+                let displacement = rest.displacement;
+                let turned = rest.turned;
                 notes += &format!("; {entity} strayed {displacement:.2} u, turned {turned:.2} rad");
             }
         }
@@ -223,7 +226,8 @@ impl Case<'_> {
     fn out_of_reach(&self, agent: AgentId, object: ObjectId) -> bool {
         let Some(state) = self.track.states.last() else { return false };
         let map = Map::new(self.scene.layout);
-        let (from, to) = (state.position(Entity::Agent(agent)), state.position(Entity::Object(object)));
+        let from = state.position(Entity::Agent(agent));
+        let to = state.position(Entity::Object(object));
         let width = self.track.physics.agents[agent].width();
         map.route(from, to, width, map.gaps(), IMPASSABLE_COST).is_none_or(|route| route.impassable > 0)
     }

@@ -107,7 +107,8 @@ fn scenes(arguments: &CheckBehaviour) -> Result<Vec<(usize, String, Scene)>, Run
     for (k, part) in PARTS.iter().enumerate().filter(|(_, part)| wanted(part.row)) {
         for file in folders.iter().map(|folder| folder.join(format!("{}.json", part.name))) {
             for recording in phase_events::read(&file)? {
-                let (id, scene) = (recording.id, recording.scene);
+                let id = recording.id;
+                let scene = recording.scene;
                 if let Some(rule) = problem(&scene) {
                     return Err(RunError::Usage(format!("{}: event {id}: {rule}", file.display())));
                 }

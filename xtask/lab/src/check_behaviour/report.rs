@@ -106,8 +106,9 @@ pub(super) fn to_json(run: &Value, scenes: &[SceneResult]) -> Value {
         let own: Vec<&SceneResult> = scenes.iter().filter(|scene| scene.part == index).collect();
         (!own.is_empty()).then(|| {
             json!({
-                "row": part.row, "name": part.name, "title": part.title, "success": part.criterion.description(),
-                "lambda": part.lambda, "result": Rates::of(trials(&own)).to_json(),
+                "row": part.row, "name": part.name, "title": part.title,
+                "success": part.criterion.description(), "lambda": part.lambda,
+                "result": Rates::of(trials(&own)).to_json(),
                 "scenes": own.iter().map(|scene| scene_value(scene)).collect::<Vec<_>>(),
             })
         })
@@ -138,8 +139,11 @@ pub(super) fn table(scenes: &[SceneResult]) -> String {
     for scene in scenes {
         let failures: Vec<&Trial> = scene.trials.iter().filter(|trial| !trial.verdict.success).collect();
         if let Some(first) = failures.first() {
-            let (part, id, count) = (PARTS[scene.part].name, &scene.id, failures.len());
-            let (seed, notes) = (first.seed, &first.verdict.notes);
+            let part = PARTS[scene.part].name;
+            let id = &scene.id;
+            let count = failures.len();
+            let seed = first.seed;
+            let notes = &first.verdict.notes;
             text += &format!("{part} {id} failed {count} times, first with seed {seed}: {notes}\n");
         }
     }
@@ -177,7 +181,8 @@ fn search_p(scenes: &[SceneResult]) -> Option<f64> {
         let own: Vec<&SceneResult> = own.collect();
         (!own.is_empty()).then(|| Rates::of(trials(&own)))
     };
-    let (near, larger) = (searches(0)?, searches(1)?);
+    let near = searches(0)?;
+    let larger = searches(1)?;
     Some(fisher_exact_greater(
         (near.successes, near.trials),
         (larger.trials - larger.successes, larger.trials),

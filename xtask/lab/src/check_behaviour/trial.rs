@@ -125,7 +125,8 @@ impl TrialRunner {
         let scene_value = serde_json::to_value(&scene)
             .map_err(|source| RunError::Serialise { what: "the scene", source })?;
         let facts = json!({
-            "program": hexadecimal(&self.program), "settings": settings_value(settings)?, "scene": scene_value,
+            "program": hexadecimal(&self.program), "settings": settings_value(settings)?,
+            "scene": scene_value,
         });
         let cache = EventCache::new(&self.cache, sha256(run::canonical(&facts).as_bytes()));
         if let Some(event) = cache.load(&name, seed) {

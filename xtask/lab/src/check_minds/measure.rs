@@ -4,7 +4,7 @@ use super::{motion::Motion, recognition::Recognition, role::Role, truth};
 use core::ops::ControlFlow;
 use cpu_time::ThreadTime;
 use phase_cli::progress::Progress;
-use phase_event::{MethodError, Recording};
+use phase_event::{MethodError, ProgressCallback, Recording};
 use phase_evidence::Track;
 use phase_model::{AGENT_COUNT, AgentId, EventKind};
 use phase_runs::{engine, error::RunError, interrupt::requested};
@@ -144,7 +144,7 @@ impl Measurement {
         &self,
         recording: &Recording,
         seed: u64,
-        tick: &mut dyn FnMut() -> ControlFlow<()>,
+        tick: ProgressCallback<'_>,
     ) -> Result<Option<Simulated>, RunError> {
         let steps = recording.trajectory.steps();
         let settings = SimulationSettings {

@@ -172,8 +172,8 @@ pub(crate) fn is_true(intent: &Intent, truth: &Hypothesis, agent: AgentId) -> bo
 fn description(arguments: &CheckMinds, plan: &Measurement) -> Value {
     json!({
         "command": "check-minds", "generator": GENERATOR, "seed": plan.seed,
-        "only": arguments.only.map(EventKind::name), "ids": arguments.ids, "minds": plan.open_loop.minds.kind().name(),
-        "inference": plan.inference, "posterior": plan.posterior,
+        "only": arguments.only.map(EventKind::name), "ids": arguments.ids,
+        "minds": plan.open_loop.minds.kind().name(), "inference": plan.inference, "posterior": plan.posterior,
         "open_loop": plan.open_loop, "open_loop_seeds": plan.open_loop_seeds,
     })
 }

@@ -41,7 +41,8 @@ impl Motion {
         });
         let still = |step: usize| AgentId::ALL.into_iter().all(|agent| !moves(&agents[agent], step));
         let open = open_steps(scene, track);
-        let (mut longest_still, mut current) = (0, 0);
+        let mut longest_still = 0;
+        let mut current = 0;
         for (step, open) in open.iter().enumerate() {
             current = if *open && still(step) { current + 1 } else { 0 };
             longest_still = longest_still.max(current);

@@ -34,7 +34,8 @@ pub struct CheckMinds {
     #[arg(long, value_name = "N", value_parser = value_parser!(u32).range(1..=1000))]
     pub searches: Option<u32>,
     /// POMCP simulations a decision in the open loop
-    #[arg(long, value_name = "N", default_value_t = 1000, value_parser = value_parser!(u32).range(1..=10_000_000))]
+    #[arg(long, value_name = "N", default_value_t = 1000,
+        value_parser = value_parser!(u32).range(1..=10_000_000))]
     pub simulations_open_loop: u32,
     /// Simulations of every scene in the open loop; with 0 that part is left out
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = value_parser!(u16).range(0..=1000))]

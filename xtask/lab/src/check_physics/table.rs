@@ -27,7 +27,8 @@ fn sections(text: &mut String, report: &Report, targets: &[Target], mirrored: us
             "within 0.1"
         )?;
         for (name, it) in &probes.families {
-            let (position, angle) = (it.position, it.angle);
+            let position = it.position;
+            let angle = it.angle;
             writeln!(
                 text,
                 "{name:<16} {:>6} {:>5}  {:>8.5} {:>8.5} {:>8.5}  {:>8.5} {:>8.5} {:>8.5}  {:>11.3} {:>11.3}  {:>5}",
@@ -93,7 +94,8 @@ fn run_rows(text: &mut String, runs: &[RunReport]) -> std::fmt::Result {
     let title = "position p50/p90/max";
     writeln!(text, "{:<width$} {:>5}  {title:^29}  steps within 0.5 u", "", "steps")?;
     for run in runs {
-        let (position, within) = (run.position, run.steps_within_0_5);
+        let position = run.position;
+        let within = run.steps_within_0_5;
         writeln!(
             text,
             "{:<width$} {:>5}  {:>9.5} {:>9.5} {:>9.5}  {within:>18}",

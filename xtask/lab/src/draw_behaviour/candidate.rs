@@ -49,7 +49,8 @@ impl Candidate<'_> {
         let scene = self.0;
         let mirrored = Flip::ALL.into_iter().filter_map(|flip| scene.mirrored(flip));
         let valid = |scene: &Scene| scene.validate_without_overlap().is_ok();
-        let (physics, state) = (scene.physics(), scene.initial_state());
+        let physics = scene.physics();
+        let state = scene.initial_state();
         scene.layout.flip().is_none()
             && valid(scene)
             && mirrored.into_iter().all(|mirrored| valid(&mirrored))

@@ -47,7 +47,8 @@ pub(super) fn search(scene: &Candidate<'_>) -> bool {
     if near.len() != 1 || larger.len() != 2 || room_of(object) == room {
         return false;
     }
-    let (physics, state) = (scene.0.physics(), scene.0.initial_state());
+    let physics = scene.0.physics();
+    let state = scene.0.initial_state();
     let view = observe(&physics, &state, FIRST);
     let wanted = super::candidate::object_of(scene.0.agents[FIRST].goal).unwrap_or(ObjectId::ZERO);
     let hidden = |rooms: &[RoomId]| {

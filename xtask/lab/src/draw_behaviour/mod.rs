@@ -92,7 +92,8 @@ pub fn run(arguments: &DrawBehaviour) -> Result<(), LabError> {
 fn draw(index: usize, seed: u64, count: usize) -> Result<Vec<Recording>, DrawError> {
     let recipe = &RECIPES[index];
     let mut scenes: Vec<Recording> = Vec::new();
-    let (mut first, mut number) = (0, 0);
+    let mut first = 0;
+    let mut number = 0;
     while scenes.len() < count {
         if number - first == MAX_DRAWS {
             return Err(DrawError { seed, part: recipe.part });
@@ -143,7 +144,8 @@ fn rounded(mut scene: Scene) -> Scene {
 /// A recording of the start alone.
 fn recording(id: String, scene: Scene) -> Recording {
     let row = |body: &Body| {
-        let (position, velocity) = (body.position, body.velocity);
+        let position = body.position;
+        let velocity = body.velocity;
         vec![[position.x, position.y, velocity.x, velocity.y, body.angle]]
     };
     let trajectory = Trajectory {

@@ -8,7 +8,8 @@ use phase_navigation::{Crossing, Map};
 pub(super) struct Walk {
     /// The openings it goes through, in order.
     pub crossings: Vec<Crossing>,
-    /// Its length, from each point to the nearest of the next opening (u). An upper bound of the shortest way.
+    /// Its length, from each point to the nearest of the next opening (u). An upper bound of the shortest
+    /// way.
     pub length: f32,
 }
 

@@ -10,10 +10,9 @@ use crate::{
     fit_events::{FitEvents, KeptFigures},
     json_file,
 };
-use core::ops::ControlFlow;
 use phase_cli::{console::print_result, context::Context, interrupt, output::json_text};
 use phase_eval::trajectories::{Errors, PREDICTED_STEPS, WATCHED_STEPS};
-use phase_event::{Forecaster, MethodError, MethodResult, Prediction, Recording};
+use phase_event::{Forecaster, MethodError, MethodResult, Prediction, ProgressCallback, Recording};
 use phase_model::{Forecast, Vec2};
 use phase_runs::{effort::MindChoice, error::RunError, eval::methods};
 use phase_simple::{Continuation, ForecastSettings, Futures, Simple, continuations, hindcast_error};
@@ -83,7 +82,8 @@ pub fn run(arguments: &FitEvents, context: &Context) -> Result<(), LabError> {
             found.map_err(|source| RunError::Method { id: recording.id.clone(), source })
         })
     };
-    let (own, others) = (known(&own)?, known(&others)?);
+    let own = known(&own)?;
+    let others = known(&others)?;
     let mut ranked: Vec<(f64, Combination)> =
         combinations().into_iter().map(|it| (mean(&own, &it)[0], it)).collect();
     ranked.sort_by(|a, b| a.0.total_cmp(&b.0));
@@ -183,7 +183,8 @@ impl KnownFutures {
     /// Gain or loss of the learnt forecaster against the hypotheses by the error of its hindcasts.
     fn learnt_factor(&self, continuations: &[Continuation], settings: &ForecastSettings) -> f64 {
         let mean = |errors: &[f64]| phase_statistics::mean(errors).unwrap_or_default();
-        let (mut sum, mut total) = (0.0, 0.0);
+        let mut sum = 0.0;
+        let mut total = 0.0;
         for continuation in continuations {
             let weight = libm::exp(continuation.log_weight(settings));
             sum += weight * mean(&continuation.hindcast_errors);
@@ -213,7 +214,7 @@ fn simulated(
     simple: &Simple,
     learnt: &dyn Forecaster,
     seed: u64,
-    tick: &mut dyn FnMut() -> ControlFlow<()>,
+    tick: ProgressCallback<'_>,
 ) -> Result<Option<KnownFutures>, MethodError> {
     let whole = recording.observed().map_err(MethodError::new)?;
     let observed = whole.prefix(WATCHED_STEPS);

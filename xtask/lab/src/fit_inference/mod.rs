@@ -38,7 +38,8 @@ pub fn run(arguments: &FitInference, context: &Context) -> Result<(), LabError> 
     files.check_out(&arguments.parameters)?;
     let settings = settings(arguments)?;
     let recordings = files.read_all(&files.events, context)?;
-    let (own, folds) = (recordings.len(), usize::from(arguments.folds));
+    let own = recordings.len();
+    let folds = usize::from(arguments.folds);
     if own < folds {
         let rule = format!("--events: {}, fewer than --folds {folds}", words::events(own));
         return Err(RunError::Usage(rule).into());

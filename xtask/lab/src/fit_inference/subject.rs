@@ -2,8 +2,7 @@
 
 use super::weights::Weights;
 use crate::check_minds::{is_true, recognition::Recognition, truth};
-use core::ops::ControlFlow;
-use phase_event::{MethodError, ObservedEvent, Recording};
+use phase_event::{MethodError, ObservedEvent, ProgressCallback, Recording};
 use phase_model::{AGENT_COUNT, AgentId, EventKind, Goal, Strength};
 use phase_runs::error::RunError;
 use phase_simple::{
@@ -66,7 +65,7 @@ impl EventEvidence {
         planning: &InversePlanningSettings,
         network: &Arc<IntentNetwork>,
         seed: u64,
-        tick: &mut dyn FnMut() -> ControlFlow<()>,
+        tick: ProgressCallback<'_>,
     ) -> Result<Option<Self>, RunError> {
         let failed = |error| RunError::Method { id: recording.id.clone(), source: error };
         let observed = recording.observed().map_err(|error| failed(MethodError::new(error)))?;
@@ -194,12 +193,13 @@ fn agents(
     prepared: &PreparedEvent,
     planning: &InversePlanningSettings,
     assumed: [Goal; AGENT_COUNT],
-    tick: &mut dyn FnMut() -> ControlFlow<()>,
+    tick: ProgressCallback<'_>,
 ) -> Result<Option<AgentEvidence>, MethodError> {
     let mut likelihoods = ActionLikelihoods::new(planning);
     likelihoods.follow(prepared);
     let strengths = prepared.motion().strengths();
-    let (mut evidence, mut budget) = ([Vec::new(), Vec::new()], Budget::UNLIMITED);
+    let mut evidence = [Vec::new(), Vec::new()];
+    let mut budget = Budget::UNLIMITED;
     for agent in AgentId::ALL {
         let others = assumed[agent.other()];
         for intent in Intent::all(agent, prepared.observed().object_sizes().len()) {

@@ -37,7 +37,8 @@ mod tests {
         assert_eq!(sizes(None).iter().sum::<usize>(), 23, "each event has a fold");
         for kind in [None, Some(EventKind::ALL[0]), Some(EventKind::ALL[1]), Some(EventKind::ALL[2])] {
             let sizes = sizes(kind);
-            let (least, most) = (sizes.iter().min(), sizes.iter().max());
+            let least = sizes.iter().min();
+            let most = sizes.iter().max();
             assert!(most.zip(least).is_some_and(|(most, least)| most - least <= 1), "{sizes:?}");
         }
         assert_ne!(folds, assign(&events, 5, 2));

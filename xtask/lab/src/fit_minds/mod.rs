@@ -100,7 +100,8 @@ fn chosen(arguments: &FitMinds, start: &PhaseParameters) -> Result<Vec<&'static 
         |it: &&Parameter| arguments.only.is_empty() || arguments.only.iter().any(|name| name == it.name);
     let chosen: Vec<&'static Parameter> = PARAMETERS.iter().filter(wanted).collect();
     for parameter in &chosen {
-        let ((low, high), value) = (parameter.range(), parameter.value(start));
+        let (low, high) = parameter.range();
+        let value = parameter.value(start);
         if !(low..=high).contains(&value) {
             let name = parameter.name;
             let file =

@@ -35,7 +35,8 @@ pub struct FitMinds {
     #[arg(long, value_name = "N", default_value_t = 6, value_parser = value_parser!(u16).range(1..=100))]
     pub rounds: u16,
     /// POMCP simulations a decision
-    #[arg(long, value_name = "N", default_value_t = 50, value_parser = value_parser!(u32).range(1..=10_000_000))]
+    #[arg(long, value_name = "N", default_value_t = 50,
+        value_parser = value_parser!(u32).range(1..=10_000_000))]
     pub simulations: u32,
     /// In place of a fit, show what the parameters are worth: the figures with each of them at its neutral
     /// value

@@ -31,7 +31,8 @@ pub(super) fn of(
         text += &format!("  {}", parameter.name);
     }
     text += &format!("\n{:<9}  {HEADING}  {HEADING}\n", "");
-    let (mut before, mut after) = (Vec::new(), Vec::new());
+    let mut before = Vec::new();
+    let mut after = Vec::new();
     for fit in fits {
         let training = Means::of(fit.parameters, &fit.training, evaluations, "training events")?;
         let mut figures = |parameters, activity| {

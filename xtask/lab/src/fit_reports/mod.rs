@@ -136,7 +136,8 @@ fn read(arguments: &FitReports) -> Result<Input, RunError> {
         return Err(rule(&format!("field format must be {GOALS_FORMAT:?}")));
     }
     let members: &[Value] = value["events"].as_array().map_or(&[], Vec::as_slice);
-    let (mut events, mut rated) = (Vec::new(), Vec::new());
+    let mut events = Vec::new();
+    let mut rated = Vec::new();
     for member in members {
         let event: RecognisedEvent = serde_json::from_value(member.clone())
             .map_err(|error| rule(&format!("an event cannot be read: {error}")))?;

@@ -34,7 +34,8 @@ pub(super) fn fit(events: &[Rated], ridge: f64) -> Result<ReportModel, Failed> {
         // A feature that is the same everywhere tells nothing, whatever its scale.
         if variance > 0.0 { libm::sqrt(variance) } else { 1.0 }
     });
-    let (mut rows, mut reports) = (Vec::new(), Vec::new());
+    let mut rows = Vec::new();
+    let mut reports = Vec::new();
     for (event, features) in events.iter().zip(&features) {
         let row: Vec<f64> = (0..REPORT_FEATURES).map(|k| (features[k] - means[k]) / deviations[k]).collect();
         for (report, raters) in event.counts.counts().into_iter().enumerate() {
@@ -50,7 +51,8 @@ pub(super) fn fit(events: &[Rated], ridge: f64) -> Result<ReportModel, Failed> {
     if fitted.classes().len() != REPORTS {
         return Err(Failed::fit("every relation must have been reported by somebody"));
     }
-    let (weights, intercepts) = (fitted.coefficients(), fitted.intercept());
+    let weights = fitted.coefficients();
+    let intercepts = fitted.intercept();
     Ok(ReportModel {
         format: REPORT_MODEL_FORMAT.into(),
         means,

@@ -63,7 +63,8 @@ fn recorded_motion_is_measured_as_by_hand() {
     assert_eq!(report["format"], "phase-minds/1");
     assert_eq!((&report["events"], &report["decisions"]), (&json!(2), &json!(16)));
     assert_eq!(report["log_posterior"], Value::Null);
-    let (kinds, roles) = (&report["kinds"], &report["roles"]);
+    let kinds = &report["kinds"];
+    let roles = &report["roles"];
     assert_eq!(kinds.as_object().expect("kinds").len(), 1);
     assert_eq!(roles["independent"]["stray_per_step"], report["stray_per_step"]);
     let [still, walking] = [&report["each"][0], &report["each"][1]];

@@ -189,8 +189,9 @@ fn bad_input_is_refused_in_one_sentence() {
 fn the_published_records_give_a_full_report() {
     let shared = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared");
     let file = |name: &str| shared.join(name).to_string_lossy().into_owned();
-    let (probes, runs, events) =
-        (file("reference/probes.json"), file("reference/runs.json"), file("real-phase/dev.json"));
+    let probes = file("reference/probes.json");
+    let runs = file("reference/runs.json");
+    let events = file("real-phase/dev.json");
     if ![&probes, &runs, &events].into_iter().all(|file| Path::new(file).is_file()) {
         println!("skipped: there is no reference material beside the project");
         return;

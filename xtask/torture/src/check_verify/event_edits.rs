@@ -150,7 +150,8 @@ pub(super) fn dataset_seed(
     random: &mut Pcg64Mcg,
     _: &Original,
 ) -> Result<bool, TortureError> {
-    let (before, now) = (copy.manifest.seed, random.random_range(100..1000));
+    let before = copy.manifest.seed;
+    let now = random.random_range(100..1000);
     copy.manifest.seed = now;
     // In the command, too.
     let card = String::from_utf8_lossy(&copy.read(CARD_FILE)?).into_owned();

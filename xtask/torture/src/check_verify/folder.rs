@@ -183,7 +183,8 @@ impl EditedCopy {
     }
 
     pub(super) fn exchange(&self, one: &str, other: &str) -> Result<(), TortureError> {
-        let (first, second) = (self.read(one)?, self.read(other)?);
+        let first = self.read(one)?;
+        let second = self.read(other)?;
         self.write(one, &second)?;
         self.write(other, &first)
     }
@@ -243,7 +244,9 @@ impl EditedCopy {
                 return Ok(false);
             };
             let found = EventEntry::of(&path, &entry.id, &simulation.event, entry.video.is_some());
-            let (variant, split, set) = (entry.variant, entry.split, entry.set.clone());
+            let variant = entry.variant;
+            let split = entry.split;
+            let set = entry.set.clone();
             *entry = EventEntry { variant, split, set, ..found.map_err(cli)? };
         }
         let Some(command) = derived::command(&path).map_err(cli)? else { return Ok(false) };

@@ -33,7 +33,8 @@ const MOST_DRAWS: usize = 100;
 #[derive(Args, Debug)]
 pub struct CheckVerify {
     /// Number of edits, of all kinds in turn
-    #[arg(long, value_name = "N", default_value_t = 1000, value_parser = value_parser!(u32).range(1..=1_000_000))]
+    #[arg(long, value_name = "N", default_value_t = 1000,
+        value_parser = value_parser!(u32).range(1..=1_000_000))]
     pub edits: u32,
     /// Seed of the edits
     #[arg(long, value_name = "S", default_value_t = 1)]

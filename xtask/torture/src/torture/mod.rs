@@ -30,7 +30,8 @@ const SMALL_DISK: u64 = 40_000;
 pub struct Torture {
     /// Times that each thing is done to each command: it is stopped at a random step of writing, killed at a
     /// random moment, finds its disk full, loses its permission to write, or races
-    #[arg(long, value_name = "N", default_value_t = 5, value_parser = value_parser!(u32).range(1..=1_000_000))]
+    #[arg(long, value_name = "N", default_value_t = 5,
+        value_parser = value_parser!(u32).range(1..=1_000_000))]
     pub kills: u32,
     /// Seed of the steps and moments
     #[arg(long, value_name = "S", default_value_t = 1)]

@@ -9,11 +9,12 @@ use serde::Serialize;
 use serde_json::ser::{Formatter, Serializer};
 use std::io;
 
-/// Lists down to this depth have an item a line; what is deeper stands in its line.
+/// Lists down to this depth have an item a line; deeper ones stand on one line.
 const DEPTH_OF_LINES: usize = 2;
 
-/// A benchmark without what neither [`page`](super::page) nor [`overview`](super::overview) nor
-/// [`leaderboard`](crate::evaluation::leaderboard) shows: scores by kind and by step, bins of calibration, details of parts, curves.
+/// A benchmark reduced to what [`page`](super::page), [`overview`](super::overview) and
+/// [`leaderboard`](crate::evaluation::leaderboard) show: without scores by kind and by step, bins of
+/// calibration, details of parts, and curves.
 #[must_use]
 pub fn figures(benchmark: &Benchmark) -> Benchmark {
     let mut figures = benchmark.clone();
@@ -26,7 +27,7 @@ pub fn figures(benchmark: &Benchmark) -> Benchmark {
 /// A benchmark as JSON with a row on each line, so that a difference between two files is one of rows.
 ///
 /// # Errors
-/// As [`serde_json::to_string`].
+/// If a value cannot be written as JSON, for example a map whose keys are no strings.
 pub fn to_lines(benchmark: &Benchmark) -> Result<String, serde_json::Error> {
     let mut text = Vec::new();
     benchmark.serialize(&mut Serializer::with_formatter(&mut text, Lines::default()))?;
@@ -71,7 +72,7 @@ struct Lines {
 }
 
 impl Lines {
-    /// What stands before an item or a name.
+    /// Writes the text before an item or a name.
     fn item<W: io::Write + ?Sized>(&self, writer: &mut W, first: bool) -> io::Result<()> {
         match (first, self.depth <= DEPTH_OF_LINES) {
             (true, true) => write!(writer, "\n{:1$}", "", self.depth),

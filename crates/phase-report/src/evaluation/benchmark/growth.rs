@@ -1,4 +1,4 @@
-//! How networks improve with the amount of training data.
+//! Improvement of networks with the amount of training data.
 
 use super::super::{length, share};
 use phase_document::{
@@ -84,7 +84,8 @@ fn table<S>(
 ) -> Option<Block> {
     let line = |(training, row): (&Training, &Row<S>)| {
         let [first, second] = cells(&row.summary);
-        let (network, dataset) = (training.network.clone(), training.dataset.clone());
+        let network = training.network.clone();
+        let dataset = training.dataset.clone();
         vec![
             network,
             dataset,
@@ -114,10 +115,8 @@ fn plot<S>(
         .filter(|(_, row)| row.set == 0)
         .map(|(training, row)| (training, of(&row.summary)))
         .collect();
-    let (least, most) = (
-        points.iter().map(|(training, _)| training.events).min()? as f64,
-        points.iter().map(|(training, _)| training.events).max()? as f64,
-    );
+    let least = points.iter().map(|(training, _)| training.events).min()? as f64;
+    let most = points.iter().map(|(training, _)| training.events).max()? as f64;
     let mut lines: Vec<(String, Vec<(f64, f64)>)> = Vec::new();
     for (training, value) in points {
         let name = match benchmark.trainings.iter().any(|other| other.dataset != training.dataset) {

@@ -1,5 +1,5 @@
 //! The report of the benchmark: the paper's two tables and its ablation, with published beside measured
-//! figures, and how well methods generalise.
+//! figures, and the generalisation of methods.
 
 mod figures;
 mod growth;
@@ -107,7 +107,7 @@ fn chart<S>(
     (!rows.is_empty()).then(|| Block::Plot { file, title: title.into(), svg: bars(title, unit, &rows) })
 }
 
-/// What a set is called in a table.
+/// Name of a set in a table.
 fn label(benchmark: &Benchmark, set: usize) -> &str {
     benchmark.sets.get(set).map_or("?", |set| set.label.as_str())
 }

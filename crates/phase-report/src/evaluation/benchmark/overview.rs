@@ -4,14 +4,14 @@ use crate::published;
 use phase_document::document::{Block, head};
 use phase_eval::benchmark::{Benchmark, Origin, RECORDED};
 
-/// The published rows, and what they are called here.
+/// The published rows, and their names here.
 const PUBLISHED: [(&str, &str); 4] = [
     ("humans", "people"),
     ("SIMPLE", "SIMPLE, published"),
     ("2-Level LSTM", "2-Level LSTM, published"),
     ("ARG", "ARG, published"),
 ];
-/// Our method, what it is called beside the published ones, and the one that it is below.
+/// Our method, its name beside the published ones, and the published row that it is put below.
 const OURS: (&str, &str, &str) = ("simple", "SIMPLE, ours", "SIMPLE");
 
 /// Goals and relations of the recordings: people, what is published, and `simple`.

@@ -89,7 +89,8 @@ fn figures<S>(benchmark: &Benchmark, rows: &[Row<S>], of: fn(&Row<S>) -> Value) 
 }
 
 fn goal_figures(row: &Row<RecognitionSummary>) -> Value {
-    let (scores, agents) = (&row.summary.all, 2 * row.summary.all.n);
+    let scores = &row.summary.all;
+    let agents = 2 * row.summary.all.n;
     let right = row.mistakes.as_ref().map_or(0, |mistakes| mistakes.right);
     json!({
         "top1": format!("{:.3}", scores.top1.value),

@@ -11,7 +11,8 @@ use phase_eval::{
     goals::{Agreement, Ceiling, Protocol, RecognitionSummary},
 };
 
-/// Both tables with their heading; nothing where no method says who helps or hinders and nobody was asked.
+/// Both tables with their heading; nothing where no method tells the agent that helps or hinders and no
+/// people were asked.
 pub(super) fn blocks(benchmark: &Benchmark) -> Vec<Block> {
     let tables: Vec<Block> = roles(benchmark).into_iter().chain(agreement(benchmark)).collect();
     if tables.is_empty() {
@@ -26,7 +27,7 @@ pub(super) fn blocks(benchmark: &Benchmark) -> Vec<Block> {
     [heading].into_iter().chain(tables).chain([people]).collect()
 }
 
-/// Who helps or hinders, and calibration; nothing unless some method says who does.
+/// Roles and calibration; nothing unless some method tells the agent that helps or hinders.
 pub(super) fn roles(benchmark: &Benchmark) -> Option<Block> {
     rows(benchmark).find(|row| row.summary.roles.is_some())?;
     let line = |row: &Row<RecognitionSummary>| {
@@ -51,13 +52,14 @@ pub(super) fn roles(benchmark: &Benchmark) -> Option<Block> {
     Some(Block::Table { head: head(&columns), rows: rows(benchmark).map(line).collect() })
 }
 
-/// Agreement with people's ratings, people's own first; nothing where nobody was asked. Where a method predicts reports, its
-/// posterior of the relation has a row of its own.
+/// Agreement with people's ratings, people's own first; nothing where no people were asked. Where a method
+/// predicts reports, its posterior of the relation has a row of its own.
 pub(super) fn agreement(benchmark: &Benchmark) -> Option<Block> {
     let ceiling = rows(benchmark).find_map(|row| row.summary.agreement.as_ref()?.ceiling)?;
     let lines = rows(benchmark).flat_map(|row| {
         let summary = &row.summary;
-        let (name, posterior) = (name(row), summary.relation_agreement.as_ref());
+        let name = name(row);
+        let posterior = summary.relation_agreement.as_ref();
         let reports =
             if posterior.is_some() { format!("{name}, the reports that it predicts") } else { name.clone() };
         // Where a model was fitted to the ratings, other models tell how good it is.
@@ -81,7 +83,8 @@ const fn of(protocol: Protocol) -> &'static str {
     }
 }
 
-/// Explanation of the protocol of predicted reports, for prose; nothing where no model was fitted to the ratings.
+/// Explanation of the protocol of predicted reports, for prose; nothing where no model was fitted to the
+/// ratings.
 pub(super) fn protocol(benchmark: &Benchmark) -> Option<String> {
     let summaries = rows(benchmark).map(|row| &row.summary);
     let mut shown = summaries.filter_map(|it| it.held_out_agreement.as_ref().or(it.agreement.as_ref()));

@@ -117,7 +117,8 @@ fn trajectory_row(benchmark: &Benchmark, row: &Row<trajectories::ForecastSummary
     let cells = |of: fn(&trajectories::ForecastScores) -> &Estimate| {
         parts.map(|part| part.map_or_else(|| NOTHING.into(), |scores| length(of(scores))))
     };
-    let (ade, fde) = (cells(|scores| &scores.ade), cells(|scores| &scores.fde));
+    let ade = cells(|scores| &scores.ade);
+    let fde = cells(|scores| &scores.fde);
     let rest = [seconds(summary.cpu_seconds_per_event), cost(benchmark, row.training)];
     [name(row), events(benchmark, row.set, summary.all.n)]
         .into_iter()
@@ -144,7 +145,8 @@ pub(super) fn trajectory_parts(benchmark: &Benchmark, pair: [Familiarity; 2]) ->
 /// Sets whose events differ in one social variable: the share of them of which all events are right.
 pub(super) fn sets(benchmark: &Benchmark) -> Option<Block> {
     let line = |row: &Row<goals::RecognitionSummary>| {
-        let (sets, all) = (row.summary.sets.as_ref()?, &row.summary.all);
+        let sets = row.summary.sets.as_ref()?;
+        let all = &row.summary.all;
         let scores = [&sets.relation, &sets.goals, &sets.all, &all.top1, &all.relation].map(share);
         Some([name(row), format!("{} ({} events)", sets.n, all.n)].into_iter().chain(scores).collect())
     };

@@ -33,7 +33,7 @@ fn is_ours(benchmark: &Benchmark, training: usize) -> bool {
         || benchmark.trajectories.iter().any(|row| ours(row.origin, row.training))
 }
 
-/// What every network cost; nothing without networks.
+/// Training cost of every network; nothing without networks.
 pub(super) fn table(benchmark: &Benchmark) -> Option<Block> {
     let row = |training: &Training| {
         vec![

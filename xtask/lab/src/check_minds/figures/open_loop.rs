@@ -91,7 +91,8 @@ fn agreements<'a>(member: &'a Member<'_>) -> impl Iterator<Item = [bool; 2]> + '
     let recorded = &member.event.recorded.reached;
     member.event.simulated.iter().flat_map(move |run| {
         member.agents.iter().filter_map(move |&agent| {
-            let (ours, theirs) = (run.motion.reached[agent]?, recorded[agent]?);
+            let ours = run.motion.reached[agent]?;
+            let theirs = recorded[agent]?;
             Some([ours.outcome == theirs.outcome, ours.at_any_time == theirs.at_any_time])
         })
     })

@@ -46,7 +46,8 @@ fn the_truth_is_summed_over_strengths_and_the_helper_is_told_from_the_helpee() {
 #[test]
 fn a_touch_is_the_same_whoever_is_named_first() {
     let neutral = |goals| Hypothesis::new(goals, [Attitude::Neutral; 2], [Strength::Fair; 2]);
-    let (chase, flight) = (touch(AgentId::ZERO, Sign::Positive), touch(AgentId::ZERO, Sign::Negative));
+    let chase = touch(AgentId::ZERO, Sign::Positive);
+    let flight = touch(AgentId::ZERO, Sign::Negative);
     let posterior = posterior(&[(neutral([chase, touch(AgentId::ONE, Sign::Negative)]), 1.0)]);
     let found = Recognition::of(&posterior, &neutral([chase, flight]));
     assert!(found.log_posterior.abs() < 1e-9, "{}", found.log_posterior);

@@ -124,7 +124,8 @@ impl Player {
         let wish = json!({ "partner": "mind", "view": "all", "agent": 0 });
         let (201, opened) = ask(address, "POST", "/api/rooms", Some(admin), &wish)? else { return None };
         let text = |value: &Value| value.as_str().map(str::to_owned);
-        let (room, token) = (text(&opened["room"])?, text(&opened["tokens"][0])?);
+        let room = text(&opened["room"])?;
+        let token = text(&opened["tokens"][0])?;
         let mut player = Self { room, token, shown: BTreeMap::new(), is_over: false };
         // Ends with the connection.
         let _ = player.follow(address, over);
