@@ -7,6 +7,7 @@ use crate::{
     error::XtaskError,
     results::root,
     tidy::{texts, walk},
+    wasm::run_tool,
 };
 use clap::Args;
 use phase_cli::console::print_result;
@@ -27,6 +28,8 @@ const INDEX: &str = "index.md";
 const CONTENTS: &str = "SUMMARY.md";
 /// The book's settings.
 const SETTINGS: &str = "book.toml";
+/// The tool and the command that installs it.
+const MDBOOK: &str = "mdbook (cargo install mdbook --version 0.5.4 --locked)";
 /// The heading of the documents that are elsewhere.
 const ELSEWHERE: &str = "# Beside the documents";
 
@@ -49,15 +52,7 @@ pub fn run(options: &Book) -> Result<(), XtaskError> {
     let out = std::path::absolute(&options.out).unwrap_or_else(|_| options.out.clone());
     let place = out.as_os_str();
     for arguments in [&["build".as_ref(), "--dest-dir".as_ref(), place][..], &["test".as_ref()]] {
-        let status = Command::new("mdbook").current_dir(&folder).args(arguments).status();
-        let problem = match status {
-            Ok(status) if status.success() => continue,
-            Ok(status) => format!("mdbook {}: {status}", arguments[0].display()),
-            Err(error) => {
-                format!("mdbook cannot be started ({error}); cargo install mdbook --version 0.5.4 --locked")
-            }
-        };
-        return Err(XtaskError::Build { what: "the book", problem });
+        run_tool(MDBOOK, Command::new("mdbook").current_dir(&folder).args(arguments))?;
     }
     let broken = broken_links(&out).map_err(XtaskError::unreadable(&out))?;
     if let Some((page, link)) = broken.first() {
@@ -125,9 +120,8 @@ fn place_of(file: &Path) -> PathBuf {
 
 /// A text with its links to a `README.md` led to where that lies in the book.
 fn with_places(text: &str) -> String {
-    [")", "#"]
-        .iter()
-        .fold(text.to_owned(), |text, end| text.replace(&format!("{FIRST}{end}"), &format!("{INDEX}{end}")))
+    let place = |text: String, end| text.replace(&format!("{FIRST}{end}"), &format!("{INDEX}{end}"));
+    [")", "#"].into_iter().fold(text.to_owned(), place)
 }
 
 /// The page of a crate without tests: mdBook, which has none of the crates, cannot run the example. It is

@@ -101,7 +101,7 @@ pub fn run(options: &Leaderboard, context: &Context) -> Result<(), XtaskError> {
         print_result("the scores are those of the predictions");
         return Ok(());
     }
-    atomic::write_json(&root.join(FOLDER).join(SCORES), &all).map_err(CliError::Output)?;
+    atomic::write_json(&file, &all).map_err(CliError::Output)?;
     results::run(&results::Results { check: false })
 }
 

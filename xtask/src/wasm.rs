@@ -31,7 +31,7 @@ pub fn build(context: &Context) -> Result<PathBuf, XtaskError> {
         cargo
     };
     let options = ["build", "--package", PACKAGE, "--target", TARGET, "--profile", PROFILE];
-    run("cargo build", cargo().args(options).arg("--target-dir").arg(&target))?;
+    run_tool("cargo build", cargo().args(options).arg("--target-dir").arg(&target))?;
     let version = version(root)?;
     let tools = target.join("tools");
     let tool = tools.join("bin").join(TOOL);
@@ -41,7 +41,7 @@ pub fn build(context: &Context) -> Result<PathBuf, XtaskError> {
         context.note(format!("installing {TOOL} {version} in {}", tools.display()));
         // Without optimisation it takes seconds longer to run, and minutes less to build.
         let install = ["install", "wasm-bindgen-cli", "--bin", TOOL, "--debug", "--version", &version];
-        run("cargo install", cargo().args(install).args(["--force", "--root"]).arg(&tools))?;
+        run_tool("cargo install", cargo().args(install).args(["--force", "--root"]).arg(&tools))?;
     }
     let module = target.join(TARGET).join(PROFILE).join("phase_playground.wasm");
     let out = target.join("playground");
@@ -49,7 +49,7 @@ pub fn build(context: &Context) -> Result<PathBuf, XtaskError> {
     fs::create_dir_all(&out).map_err(|error| failed(format!("{}: {error}", out.display())))?;
     let options =
         ["--target", "web", "--no-typescript", "--remove-name-section", "--out-name", "phase", "--out-dir"];
-    run(TOOL, Command::new(&tool).args(options).arg(&out).arg(&module))?;
+    run_tool(TOOL, Command::new(&tool).args(options).arg(&out).arg(&module))?;
     Ok(out)
 }
 
@@ -65,7 +65,8 @@ fn version(root: &Path) -> Result<String, XtaskError> {
     })
 }
 
-fn run(what: &'static str, command: &mut Command) -> Result<(), XtaskError> {
+/// Runs a tool, named `what` in errors, and waits for its success.
+pub(crate) fn run_tool(what: &'static str, command: &mut Command) -> Result<(), XtaskError> {
     let status = command.status();
     let status = status.map_err(|error| XtaskError::Build { what, problem: error.to_string() })?;
     if status.success() {

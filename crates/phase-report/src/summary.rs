@@ -8,7 +8,8 @@ const OUTCOMES: &str = "outcomes        events   as recorded        own, positiv
 const MOTION: &str = "quartiles       speed (u/s): recorded        simulated   path (u): recorded          simulated   \
                       contact (%): recorded      simulated\n";
 
-/// Outcomes and motion of simulations beside those of recordings, a row for each kind of event; each line ended.
+/// Outcomes and motion of simulations beside those of recordings, a row for each kind of event; each line
+/// ended.
 #[must_use]
 pub fn table(rows: &[KindRow]) -> String {
     let lines = |line: fn(&KindRow) -> String| rows.iter().map(line).collect::<String>();

@@ -1,6 +1,6 @@
 //! `tidy --figures`: how much there is of everything, package by package.
 
-use super::{Package, Workspace, scan::Source};
+use super::{Workspace, scan::Source};
 
 /// A function with more lines is long.
 const LONG: usize = 60;
@@ -18,15 +18,14 @@ thousand lines; long %: functions over 60 lines; lean %: doc comments that do no
 pub(super) fn table(workspace: &mut Workspace) -> String {
     let verdict = |is_met: bool| if is_met { "met" } else { "missed" };
     let packages = workspace.all_packages();
-    let counted = |workspace: &mut Workspace, package: &Package| {
-        let sources = workspace.sources(package).into_iter();
-        sources.filter(|source| !source.is_beside()).collect::<Vec<_>>()
-    };
-    let sources: Vec<Vec<Source>> = packages.iter().map(|package| counted(workspace, package)).collect();
-    let rows =
-        packages.iter().zip(&sources).map(|(package, sources)| (package.name.as_str(), Figures::of(sources)));
-    let mut rows: Vec<(&str, Figures)> = rows.collect();
-    rows.push(("all", Figures::of(sources.iter().flatten())));
+    let mut rows: Vec<(&str, Figures)> = Vec::new();
+    let mut all: Vec<Source> = Vec::new();
+    for package in &packages {
+        let first = all.len();
+        all.extend(workspace.sources(package).into_iter().filter(|source| !source.is_beside()));
+        rows.push((&package.name, Figures::of(&all[first..])));
+    }
+    rows.push(("all", Figures::of(&all)));
     let titles = rows[0].1.columns().map(|(title, _)| format!("{title:>8}")).concat();
     let mut lines = vec![format!("{:18}{titles}", "package")];
     lines.extend(rows.iter().map(|(name, figures)| {

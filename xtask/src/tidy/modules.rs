@@ -42,11 +42,8 @@ fn cycles(modules: &BTreeMap<String, String>) -> Vec<Vec<&str>> {
     let root = modules.get("lib").map_or("", String::as_str);
     let origins = origins(root);
     let mut graph = DiGraph::<&str, ()>::new();
-    let nodes: BTreeMap<&str, _> = modules
-        .keys()
-        .filter(|module| *module != "lib")
-        .map(|module| (module.as_str(), graph.add_node(module.as_str())))
-        .collect();
+    let names = modules.keys().map(String::as_str).filter(|module| *module != "lib");
+    let nodes: BTreeMap<&str, _> = names.map(|module| (module, graph.add_node(module))).collect();
     for (module, &from) in &nodes {
         for name in paths(&modules[*module], "crate::").into_iter().filter_map(|path| path.first().copied()) {
             if let Some(&to) = nodes.get(origins.get(name).copied().unwrap_or(name))

@@ -3,6 +3,7 @@
 use super::Workspace;
 use std::{
     collections::{BTreeMap, BTreeSet},
+    ffi::OsStr,
     fs, iter,
     path::{Component, Path, PathBuf},
 };
@@ -51,13 +52,12 @@ pub(super) fn check(workspace: &mut Workspace) {
 /// Every Markdown file of the project.
 fn documents(workspace: &Workspace) -> Vec<PathBuf> {
     let mut documents = workspace.files(&FOLDERS, &[".md"]);
-    // What tools leave behind, beside the sources that they serve.
-    documents
-        .retain(|document| !document.iter().any(|part| part == "node_modules" || part == ".pytest_cache"));
-    let roots = fs::read_dir(&workspace.root).into_iter().flatten().flatten().map(|entry| entry.file_name());
-    documents.extend(
-        roots.map(PathBuf::from).filter(|file| file.extension().is_some_and(|ending| ending == "md")),
-    );
+    // Tools leave these folders beside the sources that they serve.
+    let is_left_behind = |part: &OsStr| part == "node_modules" || part == ".pytest_cache";
+    documents.retain(|document| !document.iter().any(is_left_behind));
+    let entries = fs::read_dir(&workspace.root).into_iter().flatten().flatten();
+    let files = entries.map(|entry| PathBuf::from(entry.file_name()));
+    documents.extend(files.filter(|file| file.extension().is_some_and(|ending| ending == "md")));
     documents.sort();
     documents
 }

@@ -27,11 +27,10 @@ fn check_lines(workspace: &mut Workspace, package: &Package, source: &Source) {
         }
     }
     if !package.is_exempt("openings") {
-        for (line, opening) in source.openings() {
-            if let Some(opening) = opening {
-                let rule = format!("a doc comment that begins with “{opening}” does not stand alone");
-                workspace.report(&source.file, line, rule);
-            }
+        let openings = source.openings().into_iter();
+        for (line, opening) in openings.filter_map(|(line, opening)| Some((line, opening?))) {
+            let rule = format!("a doc comment that begins with “{opening}” does not stand alone");
+            workspace.report(&source.file, line, rule);
         }
     }
 }
@@ -49,10 +48,8 @@ fn check_tuples(workspace: &mut Workspace, package: &Package, sources: &[Source]
         return;
     }
     let lines: usize = sources.iter().map(|source| source.source().count()).sum();
-    let found: Vec<_> = sources
-        .iter()
-        .flat_map(|source| source.tuple_lets().into_iter().map(|line| (&source.file, line)))
-        .collect();
+    let lets = |source| Source::tuple_lets(source).into_iter().map(|line| (&source.file, line));
+    let found: Vec<_> = sources.iter().flat_map(lets).collect();
     if found.len() > lines.div_ceil(1000) {
         let rule = format!("one `let` binds one thing; {} has {} of tuples", package.name, found.len());
         for (file, line) in found {
