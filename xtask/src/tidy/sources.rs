@@ -36,8 +36,7 @@ fn check_file(workspace: &mut Workspace, file: &Path) {
     if lines > LONGEST {
         workspace.report(file, LONGEST + 1, format!("has {lines} lines; more than {LONGEST} is too long"));
     }
-    for (k, line) in text.lines().enumerate() {
-        let line_number = k + 1;
+    for (line_number, line) in (1..).zip(text.lines()) {
         if line.contains('\t') {
             workspace.report(file, line_number, "holds a tab; indent with spaces");
         }

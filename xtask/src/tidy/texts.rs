@@ -17,9 +17,7 @@ const COMMANDS: [&str; 2] = ["cargo xtask gen-dataset", "cargo test --workspace"
 
 /// Checks commands, links and lines of the documents.
 pub(super) fn check(workspace: &mut Workspace) {
-    let mut read = |file: &str| workspace.read(Path::new(file)).unwrap_or_default();
-    let readme = read(README);
-    let ci = read(CI);
+    let [readme, ci] = [README, CI].map(|file| workspace.read(Path::new(file)).unwrap_or_default());
     for command in COMMANDS {
         if !readme.lines().any(|line| line == command) {
             workspace.report(README, 1, format!("must show the command `{command}` on a line of its own"));
