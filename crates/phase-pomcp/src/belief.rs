@@ -107,8 +107,8 @@ impl<S: Clone> ParticleBelief<S> {
     /// sampled, advanced by the model, and kept if the problem goes on with the same observation, until there
     /// are as many as before (Silver & Veness 2010, section 3.2). Then each is reinvigorated.
     ///
-    /// Where an unlikely observation leaves too few after so many attempts, the rest are copies of those;
-    /// where it leaves none, the model may make new ones.
+    /// An unlikely observation may leave too few after that many attempts: the rest are then copies of those.
+    /// If it leaves none, the model may make new ones.
     ///
     /// # Errors
     /// [`BeliefError::Contradicted`].

@@ -88,7 +88,7 @@ def as_source(scenes):
             scenes, one of which the seed chooses, a function of the seed, or ``None`` for scenes of all kinds.
 
     Raises:
-        PhaseError: for an empty list, and for anything that is no scene.
+        PhaseError: for an empty list, and for anything that is not a scene.
     """
     kinds = ("helping", "hindering", "chasing", "competing", "collaborating", "independent")
     if scenes is None:

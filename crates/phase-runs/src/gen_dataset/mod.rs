@@ -38,8 +38,8 @@ use std::path::{Path, PathBuf};
 
 /// A dataset to be generated, or one shard of it.
 ///
-/// The same fields give the same files, byte for byte, on any machine and for any number of threads; so do
-/// shards that are merged. Interrupted, the same generation goes on from what is finished.
+/// Its fields determine the files, byte for byte, on any machine and for any number of threads; merged shards
+/// give the same files. Interrupted, the same generation goes on from what is finished.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Generation {
     /// The name of a bundled preset, such as `demo` or `phase-500`, or a file in the format `phase-preset/3`
