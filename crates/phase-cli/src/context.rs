@@ -12,9 +12,7 @@ pub struct Program {
     pub name: &'static str,
     /// Instructions for neural networks if it was built without them.
     pub networks_hint: &'static str,
-    /// Instructions for rating studies if it was built without them.
-    pub studies_hint: &'static str,
-    /// Instructions for the server if it was built without it.
+    /// Instructions for the server and rating studies if it was built without them.
     pub serve_hint: &'static str,
     /// The command line for which completions and man pages are generated.
     pub interface: fn() -> clap::Command,

@@ -60,20 +60,16 @@ pub enum CliError {
         /// Number of broken rules.
         broken: usize,
     },
-    /// A neural network was requested from a program built without them.
-    #[error("neural networks are needed, which this program was built without; {hint}")]
-    NoNetworks {
-        /// Advice on what to do instead.
-        hint: &'static str,
-    },
-    /// Rating studies were requested from a program built without them.
-    #[error("rating studies are needed, which this program was built without; {hint}")]
-    NoStudies {
+    /// The command needs a part of the program that it was built without.
+    #[error("this program was built without {part}; {hint}")]
+    NotBuilt {
+        /// What is missing, as the end of a sentence.
+        part: &'static str,
         /// Advice on what to do instead.
         hint: &'static str,
     },
     /// The configuration of a study cannot be used.
-    #[cfg(feature = "studies")]
+    #[cfg(feature = "serve")]
     #[error("{}: {source}", file.display())]
     Study {
         /// The file.
@@ -82,19 +78,13 @@ pub enum CliError {
         source: Box<phase_study::config::ConfigError>,
     },
     /// The answers of a study cannot be read.
-    #[cfg(feature = "studies")]
+    #[cfg(feature = "serve")]
     #[error(transparent)]
     Answers(phase_study::store::StoreError),
     /// The forms that come with the program cannot be used.
-    #[cfg(feature = "studies")]
+    #[cfg(feature = "serve")]
     #[error(transparent)]
     Forms(phase_study::forms::FormsError),
-    /// The server was requested from a program built without it.
-    #[error("the server is needed, which this program was built without; {hint}")]
-    NoServer {
-        /// Advice on what to do instead.
-        hint: &'static str,
-    },
     /// The server cannot start or had to stop.
     #[cfg(feature = "serve")]
     #[error(transparent)]
@@ -109,9 +99,7 @@ impl Failure for CliError {
             | Self::Output(_)
             | Self::NotWhole { .. }
             | Self::RulesBroken { .. }
-            | Self::NoNetworks { .. }
-            | Self::NoStudies { .. }
-            | Self::NoServer { .. }
+            | Self::NotBuilt { .. }
             | Self::NoScene { .. }
             | Self::Usage(_) => 2,
             Self::Sample(_) | Self::Serialise { .. } => 1,
@@ -120,9 +108,9 @@ impl Failure for CliError {
                 phase_serve::ServeError::Random(_) | phase_serve::ServeError::Runtime(_) => 1,
                 _ => 2,
             },
-            #[cfg(feature = "studies")]
+            #[cfg(feature = "serve")]
             Self::Study { .. } | Self::Answers(_) => 2,
-            #[cfg(feature = "studies")]
+            #[cfg(feature = "serve")]
             Self::Forms(_) => 1,
         }
     }

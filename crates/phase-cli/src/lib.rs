@@ -80,8 +80,7 @@ use std::{ffi::OsString, process::ExitCode};
 /// The program `phase`.
 pub const PHASE: Program = Program {
     name: "phase",
-    networks_hint: "install `phase` with its default features (`cargo install --path crates/phase-cli`)",
-    studies_hint: "install `phase` with its default features (`cargo install --path crates/phase-cli`)",
+    networks_hint: "install `phase` with them (`cargo install --path crates/phase-cli --features networks`)",
     serve_hint: "install `phase` with its default features (`cargo install --path crates/phase-cli`)",
     interface: cli::Cli::command,
 };
@@ -89,9 +88,8 @@ pub const PHASE: Program = Program {
 /// The program `cargo xtask`, and the packages that it starts.
 pub const CARGO_XTASK: Program = Program {
     name: "cargo xtask",
-    serve_hint: "use `cargo serve`",
     networks_hint: "use `cargo xtask-networks` in place of `cargo xtask`",
-    studies_hint: "use `cargo xtask-studies` in place of `cargo xtask`",
+    serve_hint: "use `cargo xtask-serve` in place of `cargo xtask`",
     // The installed program is `phase`.
     interface: cli::Cli::command,
 };

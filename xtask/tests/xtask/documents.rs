@@ -30,7 +30,7 @@ fn documents() -> Vec<PathBuf> {
 fn complaint(words: &[String]) -> Option<String> {
     let words: Vec<&str> = words.iter().map(String::as_str).collect();
     let arguments: Vec<&str> = match words.as_slice() {
-        ["cargo", "xtask" | "xtask-networks" | "xtask-studies", rest @ ..]
+        ["cargo", "xtask" | "xtask-networks" | "xtask-serve", rest @ ..]
         | ["xtask" | "/xtask", rest @ ..] => [&["xtask"], rest].concat(),
         ["phase", rest @ ..] => [&["phase"], rest].concat(),
         ["cargo", command @ ("train" | "serve"), rest @ ..] => [&["phase", command], rest].concat(),

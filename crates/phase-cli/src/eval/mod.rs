@@ -44,12 +44,12 @@ pub fn run(arguments: &Eval, context: &Context) -> Result<(), CliError> {
 /// Checks that this program has networks.
 ///
 /// # Errors
-/// [`CliError::NoNetworks`].
+/// [`CliError::NotBuilt`].
 pub(crate) const fn require_networks(context: &Context) -> Result<(), CliError> {
     if networks::INCLUDED {
         return Ok(());
     }
-    Err(CliError::NoNetworks { hint: context.program.networks_hint })
+    Err(CliError::NotBuilt { part: "neural networks", hint: context.program.networks_hint })
 }
 
 /// Prints the table, writes the results to the other requested places, and says where the report is.

@@ -10,11 +10,11 @@ use options::Serve;
 /// Runs the command, until Ctrl-C or SIGTERM.
 ///
 /// # Errors
-/// [`CliError::NoServer`] where the program was built without the feature `serve`; [`CliError::Serve`],
+/// [`CliError::NotBuilt`] where the program was built without the feature `serve`; [`CliError::Serve`],
 /// [`CliError::File`] or [`CliError::Usage`] for an address, scenes or WebAssembly that cannot be used.
 #[cfg(not(feature = "serve"))]
 pub fn run(_: &Serve, context: &Context) -> Result<(), CliError> {
-    Err(CliError::NoServer { hint: context.program.serve_hint })
+    Err(CliError::NotBuilt { part: "the server", hint: context.program.serve_hint })
 }
 
 /// Runs the command, until Ctrl-C or SIGTERM.

@@ -1,13 +1,13 @@
 //! `study`: rating studies, from the configuration to the figures.
 
-#[cfg(feature = "studies")]
+#[cfg(feature = "serve")]
 mod answers;
-#[cfg(feature = "studies")]
+#[cfg(feature = "serve")]
 mod check;
-#[cfg(feature = "studies")]
+#[cfg(feature = "serve")]
 mod new;
 pub mod options;
-#[cfg(feature = "studies")]
+#[cfg(feature = "serve")]
 mod videos;
 
 use crate::{context::Context, error::CliError};
@@ -16,8 +16,8 @@ use options::Study;
 /// Runs the command.
 ///
 /// # Errors
-/// Any [`CliError`]; [`CliError::NoStudies`] where the program was built without the feature `studies`.
-#[cfg(feature = "studies")]
+/// Any [`CliError`]; [`CliError::NotBuilt`] where the program was built without the feature `serve`.
+#[cfg(feature = "serve")]
 pub fn run(arguments: &Study, context: &Context) -> Result<(), CliError> {
     match arguments {
         Study::New(options) => new::run(options, context),
@@ -30,8 +30,8 @@ pub fn run(arguments: &Study, context: &Context) -> Result<(), CliError> {
 /// Says what to do instead.
 ///
 /// # Errors
-/// [`CliError::NoStudies`], always.
-#[cfg(not(feature = "studies"))]
+/// [`CliError::NotBuilt`], always.
+#[cfg(not(feature = "serve"))]
 pub const fn run(_: &Study, context: &Context) -> Result<(), CliError> {
-    Err(CliError::NoStudies { hint: context.program.studies_hint })
+    Err(CliError::NotBuilt { part: "rating studies", hint: context.program.serve_hint })
 }

@@ -8,7 +8,7 @@ use options::Train;
 /// Runs the command.
 ///
 /// # Errors
-/// [`CliError::Run`], or [`CliError::NoNetworks`] where the program was built without the feature `networks`.
+/// [`CliError::Run`], or [`CliError::NotBuilt`] where the program was built without the feature `networks`.
 pub fn run(arguments: &Train, context: &Context) -> Result<(), CliError> {
     require_networks(context)?;
     train(arguments, context)

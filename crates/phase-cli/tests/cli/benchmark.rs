@@ -204,7 +204,10 @@ fn networks_are_built_in_or_asked_for() {
         [&[][..], &["--methods", "cue,arg"], &["--methods", "cue", "--trained", "mine.safetensors"]]
     {
         let sentence = refuse(path, &[&["benchmark", "--data", "tiny"], options].concat());
-        assert!(sentence.contains("`cargo install --path crates/phase-cli`"), "{sentence}");
+        assert!(
+            sentence.contains("`cargo install --path crates/phase-cli --features networks`"),
+            "{sentence}"
+        );
     }
     assert_eq!(fs::read_dir(path).expect("a folder").count(), 0);
 }

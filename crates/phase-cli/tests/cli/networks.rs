@@ -35,9 +35,12 @@ fn a_program_without_networks_says_how_to_get_them() {
     events_of(path);
     for (task, name) in NETWORKS {
         let sentence = refuse(path, &["eval", task, "--method", name, "--events", "events.json"]);
-        assert!(sentence.contains("`cargo install --path crates/phase-cli`"), "{sentence}");
+        assert!(
+            sentence.contains("`cargo install --path crates/phase-cli --features networks`"),
+            "{sentence}"
+        );
         let train = ["train", name, "--data", "nowhere", "--out", "out"];
-        assert!(refuse(path, &train).contains("`cargo install --path crates/phase-cli`"));
+        assert!(refuse(path, &train).contains("`cargo install --path crates/phase-cli --features networks`"));
     }
     assert!(results_missing(path));
 }

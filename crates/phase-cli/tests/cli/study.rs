@@ -2,7 +2,7 @@
 
 use crate::support::{refuse, tree};
 
-#[cfg(not(feature = "studies"))]
+#[cfg(not(feature = "serve"))]
 #[test]
 fn a_program_without_studies_says_how_to_get_them() {
     let folder = tempfile::tempdir().expect("a folder");
@@ -16,7 +16,7 @@ fn a_program_without_studies_says_how_to_get_them() {
     assert!(tree(path).is_empty());
 }
 
-#[cfg(feature = "studies")]
+#[cfg(feature = "serve")]
 mod built_in {
     use super::*;
     use crate::support::{recording, run, succeed, text, write_events};
