@@ -4,7 +4,7 @@
     python3 data/import_pik.py recordings.pik [more.pik ...] --out events.json
     python3 data/import_pik.py --self-test [--out events.json]
 
-The result is what `cargo xtask simulate`, `render` and `check-physics` read; docs/formats.md describes it.
+The result is what `cargo xtask simulate`, `render` and `check-physics` read; docs/reference/formats/events.md describes it.
 Python 3.9 or later is enough; numpy is needed only if the recordings hold numpy arrays.
 
 What is read. A file holds one record, a list of records, or records by name. A record is a dictionary:

@@ -6,7 +6,7 @@
         --raters responses_genset --ratings ratings.json
 
 Both inputs are in the repository Isik-lab/SocialGNN (MIT licence): the file PHASE/Videos_Test_humanratings and the
-folder PHASE/Human_Experiment_Files/responses_genset. docs/formats.md describes both results. Python 3.9 or later and
+folder PHASE/Human_Experiment_Files/responses_genset. docs/reference/formats/overview.md describes both results. Python 3.9 or later and
 numpy are needed.
 
 What is read. The file is a pickle: a list whose entry k becomes the event `phase-test-k`; empty entries are skipped.

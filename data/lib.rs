@@ -1,7 +1,7 @@
 //! Data that comes with PHASE: trained weights with the records of their training, fitted models, rating
 //! forms, and presets of datasets, as bytes and text.
 //!
-//! The files are made by commands (docs/networks.md, docs/simple.md, docs/dataset.md) and lie beside this
+//! The files are made by commands (docs/explanation/networks.md, docs/explanation/simple.md, docs/reference/dataset.md) and lie beside this
 //! file. Key design decision: one crate has them all, so that every other crate can be packed without files
 //! from outside of it. What a program does not use is not linked into it.
 //!
@@ -31,7 +31,7 @@ macro_rules! trained {
     };
 }
 
-/// ARG (docs/networks.md).
+/// ARG (docs/explanation/networks.md).
 pub const ARG: Trained = trained!("arg.safetensors");
 /// The intent network of SIMPLE.
 pub const INTENT_NETWORK: Trained = trained!("intent-network.safetensors");
@@ -46,23 +46,23 @@ pub const STRENGTH_WEIGHTS: &[u8] = include_bytes!("strength.safetensors");
 /// The 2-Level LSTM.
 pub const TWO_LEVEL_LSTM: Trained = trained!("two-level-lstm.safetensors");
 
-/// The model of how people report what they saw (JSON, docs/simple.md).
+/// The model of how people report what they saw (JSON, docs/explanation/simple.md).
 pub const REPORT_MODEL: &str = include_str!("report-model.json");
 /// The record of its fit: to whose ratings, and how it agrees with those held out of it (JSON, format
-/// phase-report-training/1, docs/formats.md).
+/// phase-report-training/1, docs/reference/formats/networks.md).
 pub const REPORT_TRAINING: &str = include_str!("report-model.training.json");
 
-/// The rating forms: what people are asked about a video (JSON, format phase-forms/1, docs/formats.md). The
+/// The rating forms: what people are asked about a video (JSON, format phase-forms/1, docs/reference/formats/studies.md). The
 /// 23 types of interaction are those of the paper, in its order.
 pub const FORMS: &str = include_str!("forms.json");
 
 /// Twelve events, two of each kind (JSON, format phase-preset/3, as all presets).
 pub const DEMO: &str = include_str!("presets/demo.json");
-/// The paper's 500 events, second edition (docs/dataset.md).
+/// The paper's 500 events, second edition (docs/reference/dataset.md).
 pub const PHASE_500: &str = include_str!("presets/phase-500.json");
 /// The first edition of them.
 pub const PHASE_500_V1: &str = include_str!("presets/phase-500-v1.json");
-/// Minimal pairs and triples (docs/pairs.md).
+/// Minimal pairs and triples (docs/reference/pairs.md).
 pub const PHASE_PAIRS: &str = include_str!("presets/phase-pairs.json");
 /// Training events of the same kind as those of PHASE-500.
 pub const PHASE_TRAINING: &str = include_str!("presets/phase-training.json");

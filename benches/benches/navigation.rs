@@ -31,7 +31,7 @@ fn main() {
             });
         }
     }
-    // What a plan pays for the same distance, through doors alone (docs/minds.md).
+    // What a plan pays for the same distance, through doors alone (docs/explanation/minds.md).
     criterion.bench_function("navigation/route of a plan", |bencher| {
         let from = Vec2::new(24.0, 20.0);
         let to = Vec2::new(8.5, 19.5);

@@ -27,7 +27,7 @@ use std::{
 };
 
 /// The page.
-pub const PAGE: &str = "docs/leaderboard.md";
+pub const PAGE: &str = "docs/results/leaderboard.md";
 /// The folder of predictions and scores.
 const FOLDER: &str = "data/leaderboard";
 /// The scores in it.

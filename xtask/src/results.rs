@@ -17,7 +17,7 @@ const FIGURES: &str = "data/results.json";
 /// The record of the fit of the model of reports.
 const REPORT_TRAINING: &str = "data/report-model.training.json";
 /// The page of all results.
-const PAGE: &str = "docs/results.md";
+const PAGE: &str = "docs/results/overview.md";
 /// The first page, with the most important ones between two comments.
 const README: &str = "README.md";
 /// Lines before and after its table.

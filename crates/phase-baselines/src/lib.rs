@@ -18,7 +18,7 @@
 //! The trade-off is that the optimiser and the LSTM are implemented here, and that reproducibility holds only
 //! for processors with the same matrix-multiplication instructions. Strength networks are small enough for
 //! one thread; baselines use as many as `RAYON_NUM_THREADS` gives; one and two gave the same weights
-//! (`docs/networks.md`).
+//! (`docs/explanation/networks.md`).
 //!
 //! Nothing here reads a file, accesses a clock or prints; `train` in `phase-cli` does. No other crate of the
 //! library depends on this one, because the neural-network library takes long to build.

@@ -24,7 +24,7 @@
 //! A method that perceives events implements [`Recogniser`] (goals and relations) or [`Forecaster`]
 //! (trajectories), and is shown an [`ObservedEvent`].
 //!
-//! `docs/formats.md` describes every field. Reading and writing are exact inverses, bit for bit. Every part
+//! `docs/reference/formats/events.md` describes every field. Reading and writing are exact inverses, bit for bit. Every part
 //! can also be read and written separately: [`Recording`], [`Event`] and [`Scene`](phase_model::Scene) have
 //! `from_json` and `to_json`, and implement serde's traits.
 //!

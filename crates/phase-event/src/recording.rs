@@ -43,7 +43,7 @@ pub struct SimulationRecord {
 /// which has none of them. A simulated event has its [`SimulationRecord`] beside the trajectory, and a
 /// measured one may have the exact actions of its first steps.
 ///
-/// `docs/formats.md` describes every field of a file; [`Recording::from_json`] and [`Recording::to_json`] are
+/// `docs/reference/formats/events.md` describes every field of a file; [`Recording::from_json`] and [`Recording::to_json`] are
 /// exact inverses.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Recording {

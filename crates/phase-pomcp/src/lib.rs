@@ -39,7 +39,7 @@
 //!
 //! A generator is any of `rand` 0.10, here `rand_pcg`'s. `examples/tiger.rs` goes on to whole episodes, with
 //! a [`ParticleBelief`] between the real steps; `examples/anchors` measures returns on published problems,
-//! which docs/planners.md lists. Where not every action is possible everywhere, a model says so
+//! which docs/explanation/planners.md lists. Where not every action is possible everywhere, a model says so
 //! ([`GenerativeModel::is_legal`]).
 //!
 //! # Key design decision

@@ -1,6 +1,6 @@
 //! The native part of the Python package `phase_events`, the module `phase_events._native`.
 //!
-//! It hands numbers over as numpy arrays and everything else as JSON, in the formats of `docs/formats.md`, so
+//! It hands numbers over as numpy arrays and everything else as JSON, in the formats of `docs/reference/formats/overview.md`, so
 //! that Python and files have one vocabulary. What users see, with types, units and errors, is documented in
 //! the package, `python/phase_events`.
 //!

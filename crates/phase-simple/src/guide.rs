@@ -14,7 +14,7 @@ use phase_model::{AGENT_COUNT, AgentId, Attitude, Goal, Strength};
 use serde::{Deserialize, Serialize};
 use std::{collections::BTreeSet, sync::Arc};
 
-/// The weight of a network's guess in inverse planning (docs/simple.md).
+/// The weight of a network's guess in inverse planning (docs/explanation/simple.md).
 #[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Guidance {

@@ -58,7 +58,7 @@ pub enum ReportModelError {
 }
 
 impl ReportModel {
-    /// The weights fitted to the raters of the shared recordings (docs/simple.md).
+    /// The weights fitted to the raters of the shared recordings (docs/explanation/simple.md).
     pub const BUNDLED: &'static str = phase_data::REPORT_MODEL;
 
     /// The model that comes with the program.

@@ -123,7 +123,7 @@ const LAPSE_RATE_OF_PUBLISHED: f64 = 0.1;
 const COMPARISON_LAPSE_RATE: f64 = 0.05;
 
 /// Parameters of inverse planning. ε is fitted by `cargo xtask fit-inference` and κ measured by it
-/// (docs/simple.md), σ was selected on the validation events of PHASE-500.
+/// (docs/explanation/simple.md), σ was selected on the validation events of PHASE-500.
 #[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
 pub struct InversePlanningSettings {
     /// ε, the lapse rate: probability of a uniformly random action instead of the policy's.

@@ -92,7 +92,7 @@ impl Forms {
         Self::read(phase_data::FORMS)
     }
 
-    /// Reads forms (`phase-forms/1`, `docs/formats.md`).
+    /// Reads forms (`phase-forms/1`, `docs/reference/formats/studies.md`).
     ///
     /// # Errors
     /// [`FormsError`].

@@ -1,5 +1,5 @@
 //! Bounds of what both engines do wrong. `cargo xtask check-engines` measures the same in more scenes;
-//! `docs/physics.md` explains it.
+//! `docs/explanation/physics.md` explains it.
 
 use phase_fuzz::{
     engines::{GAIN, Kind, energy_gains, meetings, overlaps, rebuilt},

@@ -12,8 +12,8 @@ use xtask::results::documents;
 const SOURCES: [&str; 5] = [
     "data/report-model.training.json",
     "data/results.json",
-    "docs/results.md",
-    "docs/leaderboard.md",
+    "docs/results/overview.md",
+    "docs/results/leaderboard.md",
     "README.md",
 ];
 
@@ -54,7 +54,7 @@ fn a_typed_figure_is_noticed() {
         let documents = documents(folder.path()).expect("documents");
         documents.into_iter().any(|(other, text)| other == Path::new(file) && text != there)
     };
-    for file in ["docs/results.md", "README.md", "docs/leaderboard.md"] {
+    for file in ["docs/results/overview.md", "README.md", "docs/results/leaderboard.md"] {
         assert!(!differs(file), "{file}");
         let path = folder.path().join(file);
         let text = fs::read_to_string(&path).expect("a document");
@@ -103,7 +103,7 @@ fn figures_in_sample_cannot_be_shown_as_held_out() {
     // Without figures held out, the page says that the others are in-sample.
     assert_eq!(refused(&|it| it.held_out_agreement = None), "");
     let page = documents(folder.path()).expect("documents").into_iter();
-    let page = page.filter(|(file, _)| file == Path::new("docs/results.md")).map(|(_, text)| text);
+    let page = page.filter(|(file, _)| file == Path::new("docs/results/overview.md")).map(|(_, text)| text);
     let page: String = page.collect();
     assert!(page.contains("the reports that it predicts, in-sample |"), "{page}");
     assert!(page.contains("fitted to these very ratings"), "{page}");

@@ -6,7 +6,7 @@ use phase_model::random::Pcg64Mcg;
 
 /// A network of the paper's size, whose weights are bundled with the program.
 pub trait PublishedNetwork: Network + Sized {
-    /// The weights trained by `cargo train`; `docs/networks.md` describes the training data.
+    /// The weights trained by `cargo train`; `docs/explanation/networks.md` describes the training data.
     const BUNDLED_WEIGHTS: &'static [u8];
     /// The [`TrainingRecord`](super::TrainingRecord) of that training, as a file.
     const BUNDLED_RECORD: &'static str;

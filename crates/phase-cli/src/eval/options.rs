@@ -48,7 +48,7 @@ pub struct EvalGoals {
         conflicts_with = "predictions"
     )]
     pub watched: Vec<f64>,
-    /// Ratings by people of the relations of the events (phase-ratings/1; see docs/formats.md): also report
+    /// Ratings by people of the relations of the events (phase-ratings/1; see docs/reference/formats/studies.md): also report
     /// how closely the method's probabilities agree with them
     #[arg(long, value_name = "FILE")]
     pub ratings: Option<PathBuf>,
@@ -80,7 +80,7 @@ pub struct EvalTrajectories {
 #[derive(Args, Debug)]
 pub struct Common {
     /// Score the answers in this file instead of asking a method (`events` as in results.json; see
-    /// docs/formats.md)
+    /// docs/reference/formats/evaluation.md)
     #[arg(long, value_name = "FILE", conflicts_with = "method")]
     pub predictions: Option<PathBuf>,
     /// A file in the format phase-events/1, or the folder of a dataset or of simulations

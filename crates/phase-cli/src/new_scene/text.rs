@@ -39,7 +39,7 @@ fn comments(program: &str) -> Vec<String> {
     let landmarks: Vec<String> = landmarks.map(|(k, at)| format!("{k} at ({}, {})", at.x, at.y)).collect();
     vec![
         format!("A scene to start from: edit it, then {program} simulate --events FILE --out DIR."),
-        "Members whose names begin with _ are ignored. docs/formats.md describes every other member.".into(),
+        "Members whose names begin with _ are ignored. docs/reference/formats/events.md describes every other member.".into(),
         "id: letters, digits, - and _; files of this event are named after it. Further events may follow in the list \
          events, each with an id of its own."
             .into(),

@@ -71,7 +71,7 @@ pub fn run(arguments: &Serve, context: &Context) -> Result<(), CliError> {
     Ok(server.run(stopped())?)
 }
 
-/// Games with a mind that a machine of this size plays in time (docs/performance.md).
+/// Games with a mind that a machine of this size plays in time (docs/results/performance.md).
 #[cfg(feature = "serve")]
 fn mind_rooms() -> usize {
     const PER_CORE: usize = 12;

@@ -22,7 +22,7 @@ fn a_new_scene_simulates_as_written() {
         let scene = phase_events::read(&path.join(&file)).expect("a scene").remove(0).scene;
         assert_eq!((scene.kind, scene.validate_without_overlap()), (kind, Ok(())));
         let text = fs::read_to_string(path.join(&file)).expect("text");
-        assert!(text.contains("\"_comment\"") && text.contains("docs/formats.md"), "{text}");
+        assert!(text.contains("\"_comment\"") && text.contains("docs/reference/formats/events.md"), "{text}");
         let told = simulated(path, &file, &format!("out/{}", kind.name()), &["--no-video"]);
         assert!(told.contains(&format!("| {0} | {0} |", kind.name())), "{told}");
     }

@@ -71,7 +71,7 @@ def generate(preset="demo", events=None, out=None, *, shard=None, seed=None, vid
 
 
 def evaluate(predictions, events, *, task="goals", split=None, ratings=None, seed=1, name="predictions", out=None):
-    """Scores answers with the metrics of the benchmark (docs/benchmark.md).
+    """Scores answers with the metrics of the benchmark (docs/how-to/benchmark.md).
 
     >>> answers = {event.id: infer(event) for event in events}   # doctest: +SKIP
     >>> evaluate(answers, events)["goal"]["top1"]                # doctest: +SKIP
@@ -88,7 +88,7 @@ def evaluate(predictions, events, *, task="goals", split=None, ratings=None, see
         out: a folder that keeps results and report; ``None`` keeps nothing.
 
     Returns:
-        the document ``phase-eval-goals/1`` or ``phase-eval-trajectories/1`` as a dict (docs/formats.md): ``goal``, ``relation``,
+        the document ``phase-eval-goals/1`` or ``phase-eval-trajectories/1`` as a dict (docs/reference/formats/evaluation.md): ``goal``, ``relation``,
         ``roles``, ``calibration``, … or ``agents``, ``entities``, …, and every answer in ``events``.
 
     Raises:

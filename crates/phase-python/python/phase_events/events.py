@@ -86,7 +86,7 @@ class Event:
 
     @property
     def goals(self):
-        """Both agents' goals, as dicts of the members of ``goal`` in docs/formats.md."""
+        """Both agents' goals, as dicts of the members of ``goal`` in docs/reference/formats/events.md."""
         return [agent["goal"] for agent in json.loads(self.scene.to_json())["agents"]]
 
     @property
@@ -194,7 +194,7 @@ def simulate(scene, seed=0, *, id="event", engine="world", max_steps=100, parame
         id: the name of the event.
         engine: ``world`` (rapier2d) or ``forward`` (the kernel that minds plan in).
         max_steps: the greatest length (steps of 0.25 s), 1 to 10000. The event ends earlier once nothing happens any more.
-        parameters: a dict of the parameters of both minds that differ from the defaults of their kind (docs/minds.md), such as
+        parameters: a dict of the parameters of both minds that differ from the defaults of their kind (docs/explanation/minds.md), such as
             ``{"simulations": 200}`` or ``{"kind": "published"}``.
 
     Returns:

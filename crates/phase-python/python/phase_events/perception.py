@@ -37,7 +37,7 @@ def infer(event, *, method="simple", seed=0, steps=None):
         a dict: ``goals``, for each agent a list of ``{"goal": …, "p": …}``, most likely first; ``relation``, the probabilities of
         ``friendly``, ``adversarial`` and ``neutral``; ``roles``, the probabilities that either agent ``helps`` or ``hinders``;
         ``reported``, the shares of people who would report each relation; ``strengths``, for each agent a dict from levels of strength to
-        their probabilities, over the most likely hypotheses; ``details`` as in docs/formats.md. What a method does not say is ``None``.
+        their probabilities, over the most likely hypotheses; ``details`` as in docs/reference/formats/evaluation.md. What a method does not say is ``None``.
 
     Raises:
         PhaseError: for an unknown method, and an event without motion.
@@ -80,7 +80,7 @@ def forecast(event, *, method="simple", watched=20, steps=20, seed=0):
 
 
 class Observer:
-    """SIMPLE while an event is watched (docs/simple.md): the posterior after every row.
+    """SIMPLE while an event is watched (docs/explanation/simple.md): the posterior after every row.
 
     >>> observer = Observer(event.scene, event.trajectory[0])   # doctest: +SKIP
     >>> for row in event.trajectory[1:]:                        # doctest: +SKIP

@@ -32,7 +32,7 @@ _PUSH_DIRECTIONS = np.array(list(_PUSHES.values()))
 
 
 class Mind:
-    """A PHASE mind: belief, symbolic planner and POMCP search (docs/minds.md).
+    """A PHASE mind: belief, symbolic planner and POMCP search (docs/explanation/minds.md).
 
     It can be used on its own or as a policy in an environment; then :meth:`reset` gives it the scene.
 
@@ -43,7 +43,7 @@ class Mind:
         agent: the agent whose mind it is, 0 or 1.
         seed: a whole number from 0 to 2**64 - 1, for its belief and its search. Two minds with the seed of an event decide as those of
             :func:`phase_events.simulate`.
-        parameters: a dict of parameters of the kind ``phase`` that differ from the defaults (docs/minds.md), such as
+        parameters: a dict of parameters of the kind ``phase`` that differ from the defaults (docs/explanation/minds.md), such as
             ``{"simulations": 200}``.
 
     Raises:

@@ -14,7 +14,7 @@ def scene(description):
     'helping'
 
     Args:
-        description: its members are those of ``scene`` in a ``phase-events/1`` file (docs/formats.md): ``layout``, ``objects``,
+        description: its members are those of ``scene`` in a ``phase-events/1`` file (docs/reference/formats/events.md): ``layout``, ``objects``,
             ``event`` and ``agents``.
 
     Returns:
@@ -40,7 +40,7 @@ def sample_scene(kind=None, *, variant=None, preset=None, seed=0):
 
     Args:
         kind: ``helping``, ``hindering``, ``chasing``, ``competing``, ``collaborating`` or ``independent``; any of them if ``None``.
-        variant: a variant of the kind, such as ``fetch`` or ``block`` (docs/dataset.md).
+        variant: a variant of the kind, such as ``fetch`` or ``block`` (docs/reference/dataset.md).
         preset: draw as a preset does instead, such as ``phase-500`` or ``phase-pairs``, or a file in the format ``phase-preset/3``.
         seed: a whole number from 0 to 2**64 - 1. One seed gives one scene, on every machine.
 

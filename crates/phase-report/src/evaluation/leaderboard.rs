@@ -119,8 +119,8 @@ pub fn leaderboard(benchmark: &Benchmark, scores: &Scores, sources: &BTreeMap<St
     format!(
         "# Leaderboard\n\n\
          <!-- Written by `cargo xtask results` from data/results.json and data/leaderboard/scores.json. -->\n\n\
-         {}. Square brackets hold 95 % bootstrap intervals. [results.md](results.md) has all measures of the bundled methods; \
-         [how-to/method.md](how-to/method.md) says what a method may use and how to submit yours. Published figures are of all \
+         {}. Square brackets hold 95 % bootstrap intervals. [The overview](overview.md) has all measures of the bundled methods; \
+         [how-to/method.md](../how-to/method.md) says what a method may use and how to submit yours. Published figures are of all \
          100 recordings.\n\n\
          ## Goals and relations\n\n{goals}\n\
          Sorted by goal accuracy on generated events; methods without that score by goal accuracy on recordings. A minimal-pair \

@@ -41,7 +41,7 @@ pub struct Simple {
 }
 
 impl Simple {
-    /// The names of all variants; `docs/simple.md` describes them.
+    /// The names of all variants; `docs/explanation/simple.md` describes them.
     pub const NAMES: [&str; VARIANTS.len()] = {
         let mut names = [""; VARIANTS.len()];
         let mut place = 0;

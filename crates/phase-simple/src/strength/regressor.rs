@@ -14,7 +14,7 @@ pub struct StrengthRegressor {
     weights: Weights,
 }
 
-/// The weights trained by `cargo train strength`; `docs/networks.md` describes the training data.
+/// The weights trained by `cargo train strength`; `docs/explanation/networks.md` describes the training data.
 const BUNDLED_WEIGHTS: &[u8] = phase_data::STRENGTH_WEIGHTS;
 
 /// The mean of the levels (N).

@@ -87,7 +87,7 @@ const fn title(experiment: Experiment) -> &'static str {
 
 fn comments() -> Vec<&'static str> {
     vec![
-        "Edit this file, then: phase study check FILE. Members whose names begin with _ are ignored; docs/formats.md describes all others.",
+        "Edit this file, then: phase study check FILE. Members whose names begin with _ are ignored; docs/reference/formats/studies.md describes all others.",
         "Texts: lists of paragraphs, plain text. Replace what stands in [brackets]; the texts of introduction and consent are examples, not \
          what your ethics board wants.",
         "demographics: nothing is asked unless it is here. A question is {name, text, kind, required}: kind whole (from, to), one (choices) or \

@@ -12,7 +12,7 @@ pub struct CheckBehaviour {
     /// too
     #[arg(long, value_name = "FILE", num_args = 0..=1, default_missing_value = "-")]
     pub json: Option<PathBuf>,
-    /// Only these rows of the table in docs/behaviour.md
+    /// Only these rows of the table in docs/results/behaviour.md
     #[arg(long, value_name = "N", num_args = 1.., value_parser = value_parser!(u8).range(1..=10))]
     pub row: Vec<u8>,
     /// Events of each scene: seeds 1 to N, which use the five reflections in rotation

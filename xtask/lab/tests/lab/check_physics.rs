@@ -225,7 +225,7 @@ fn the_published_records_give_a_full_report() {
         if engine == "forward" {
             assert_eq!(missed, [""; 0]);
         } else {
-            // docs/physics.md lists the world's deviations; none may be added.
+            // docs/explanation/physics.md lists the world's deviations; none may be added.
             assert!(missed.iter().all(|what| what.contains("p99")), "{missed:?}");
         }
     }
