@@ -4,7 +4,7 @@
 
 EVENTS is the folder of a generated dataset or a file in the format phase-events/1 (docs/reference/formats/events.md). Two files are
 written, both called after the method: goals/rules-of-thumb.json (Task 1: what does each agent want, and how do the two
-stand to each other?) and trajectories/rules-of-thumb.json (Task 2: where will everyone be in the 20 steps after the
+relate to each other?) and trajectories/rules-of-thumb.json (Task 2: where will everyone be in the 20 steps after the
 first 20?).
 
 The method is deliberately small. It has no physics, no planning and no idea of beliefs, only rules of thumb about

@@ -10,7 +10,7 @@ pub struct Instructions {
     pub you: &'static str,
     /// The player's own task, in a sentence.
     pub yours: String,
-    /// The other agent's task, in a sentence.
+    /// What the other agent tries, in a sentence to the player.
     pub theirs: String,
 }
 
@@ -19,21 +19,21 @@ impl Instructions {
     #[must_use]
     pub fn new(scene: &Scene, agent: AgentId, names: &Names) -> Self {
         let other = agent.other();
-        let told = |who: AgentId, whose: &str| {
-            let goals = scene.goals();
-            let whom = names.entity(Entity::Agent(who.other()));
-            let helped = names.wants(goals[who.other()], who.other());
-            match scene.attitudes()[who] {
-                Attitude::Neutral => format!("{whose} goal: {}.", names.wants(goals[who], who)),
-                Attitude::Help => {
-                    format!("Help the {} to reach its goal: {helped}.", whom)
-                }
-                Attitude::Hinder => {
-                    format!("Keep the {} from reaching its goal: {helped}.", whom)
-                }
-            }
+        let attitudes = scene.attitudes();
+        let goal = |who: AgentId| names.wants(scene.goals()[who], who);
+        let whom = names.entity(Entity::Agent(other));
+        let yours = match attitudes[agent] {
+            Attitude::Neutral => format!("Your goal: {}.", goal(agent)),
+            Attitude::Help => format!("Help the {whom} to reach its goal: {}.", goal(other)),
+            Attitude::Hinder => format!("Keep the {whom} from reaching its goal: {}.", goal(other)),
         };
-        Self { you: names.agents[agent], yours: told(agent, "Your"), theirs: told(other, "Its") }
+        let them = format!("The other agent ({})", names.agents[other]);
+        let theirs = match attitudes[other] {
+            Attitude::Neutral => format!("{them} has this goal: {}.", goal(other)),
+            Attitude::Help => format!("{them} is trying to help you reach your goal."),
+            Attitude::Hinder => format!("{them} is trying to keep you from reaching your goal."),
+        };
+        Self { you: names.agents[agent], yours, theirs }
     }
 }
 

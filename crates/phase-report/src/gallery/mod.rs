@@ -79,7 +79,7 @@ impl Gallery<'_> {
     #[must_use]
     pub fn page(&self, number: usize, events: &[EventEntry], timelines: &[Timeline]) -> String {
         let (count, base) = if self.is_one_page() {
-            (format!("{} events", self.events), "")
+            (if self.events == 1 { "1 event".into() } else { format!("{} events", self.events) }, "")
         } else {
             let from = number * EVENTS_PER_PAGE + 1;
             let to = number * EVENTS_PER_PAGE + events.len();

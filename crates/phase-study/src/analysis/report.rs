@@ -29,8 +29,8 @@ pub fn document(title: &str, analysis: &Analysis) -> Document {
             ],
         ),
         Block::Text(format!(
-            "Only complete raters count: {} judgements of {} of {} videos, {} to {} each. Intervals are 95 % and over videos: of means and \
-             α by the percentile bootstrap, of shares Wilson's.",
+            "Only complete raters count: {} judgements of {} of {} videos, {} to {} each. 95 % confidence intervals over videos: \
+             percentile bootstrap for means and α, Wilson for proportions.",
             coverage.judgements, coverage.judged, coverage.videos, coverage.least, coverage.most
         )),
     ];

@@ -81,7 +81,7 @@ const fn title(experiment: Experiment) -> &'static str {
     match experiment {
         Experiment::Interactions => "What happens in these videos?",
         Experiment::HumanLikeness => "What do they want, and would people do the same?",
-        Experiment::Relations => "How do these two stand to each other?",
+        Experiment::Relations => "What is the relationship between these two?",
     }
 }
 
@@ -129,11 +129,11 @@ fn instructions(experiment: Experiment) -> Vec<&'static str> {
     all.push(match experiment {
         Experiment::Interactions => "Choose every description that fits what the two do. Several may fit.",
         Experiment::HumanLikeness => {
-            "Say what each of them wants, how they stand to each other, and how likely people would be to move like this if they had these \
+            "Say what each of them wants, how they relate to each other, and how likely people would be to move like this if they had these \
              goals."
         }
         Experiment::Relations => {
-            "Say how the two stand to each other: friendly if one helps the other or they work together, adversarial if one hinders the other \
+            "Say how the two relate to each other: friendly if one helps the other or they work together, adversarial if one hinders the other \
              or they work against each other, neutral otherwise."
         }
     });

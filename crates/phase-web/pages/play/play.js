@@ -199,7 +199,7 @@ function tell(practice) {
     told.push(paragraph("Try to move, to turn, and to grab an object and carry it. There is no goal yet."));
   } else {
     const { you, yours, theirs } = stage.instructions;
-    told.push(paragraph(`You are the ${you} agent.`, "you"), paragraph(yours, "you"), paragraph(`The other agent. ${theirs}`));
+    told.push(paragraph(`You are the ${you} agent.`, "you"), paragraph(yours, "you"), paragraph(theirs));
   }
   at("told").replaceChildren(...told);
 }
