@@ -1,9 +1,10 @@
 //! Data that comes with PHASE: trained weights with the records of their training, fitted models, rating
 //! forms, and presets of datasets, as bytes and text.
 //!
-//! The files are made by commands (docs/explanation/networks.md, docs/explanation/simple.md, docs/reference/dataset.md) and lie beside this
-//! file. Key design decision: one crate has them all, so that every other crate can be packed without files
-//! from outside of it. What a program does not use is not linked into it.
+//! The files are made by commands (docs/explanation/networks.md, docs/explanation/simple.md,
+//! docs/reference/dataset.md) and lie beside this file. Key design decision: one crate has them all, so that
+//! every other crate can be packed without files from outside of it. What a program does not use is not
+//! linked into it.
 //!
 //! Every preset has a name, and every network the record of its training:
 //!
@@ -52,8 +53,8 @@ pub const REPORT_MODEL: &str = include_str!("report-model.json");
 /// phase-report-training/1, docs/reference/formats/networks.md).
 pub const REPORT_TRAINING: &str = include_str!("report-model.training.json");
 
-/// The rating forms: what people are asked about a video (JSON, format phase-forms/1, docs/reference/formats/studies.md). The
-/// 23 types of interaction are those of the paper, in its order.
+/// The rating forms: what people are asked about a video (JSON, format phase-forms/1,
+/// docs/reference/formats/studies.md). The 23 types of interaction are those of the paper, in its order.
 pub const FORMS: &str = include_str!("forms.json");
 
 /// Twelve events, two of each kind (JSON, format phase-preset/3, as all presets).

@@ -63,7 +63,7 @@ pub enum CliError {
     /// The command needs a part of the program that it was built without.
     #[error("this program was built without {part}; {hint}")]
     NotBuilt {
-        /// What is missing, as the end of a sentence.
+        /// The missing part, as the end of a sentence.
         part: &'static str,
         /// Advice on what to do instead.
         hint: &'static str,

@@ -24,9 +24,9 @@
 //! A method that perceives events implements [`Recogniser`] (goals and relations) or [`Forecaster`]
 //! (trajectories), and is shown an [`ObservedEvent`].
 //!
-//! `docs/reference/formats/events.md` describes every field. Reading and writing are exact inverses, bit for bit. Every part
-//! can also be read and written separately: [`Recording`], [`Event`] and [`Scene`](phase_model::Scene) have
-//! `from_json` and `to_json`, and implement serde's traits.
+//! `docs/reference/formats/events.md` describes every field. Reading and writing are exact inverses, bit for
+//! bit. Every part can also be read and written separately: [`Recording`], [`Event`] and
+//! [`Scene`](phase_model::Scene) have `from_json` and `to_json`, and implement serde's traits.
 //!
 //! Key design decision: events are read by hand from a tree of JSON values instead of by derived readers, so
 //! that errors name the field, the event and the rule that is violated. The trade-off is a reader four times

@@ -43,8 +43,8 @@ pub struct SimulationRecord {
 /// which has none of them. A simulated event has its [`SimulationRecord`] beside the trajectory, and a
 /// measured one may have the exact actions of its first steps.
 ///
-/// `docs/reference/formats/events.md` describes every field of a file; [`Recording::from_json`] and [`Recording::to_json`] are
-/// exact inverses.
+/// `docs/reference/formats/events.md` describes every field of a file; [`Recording::from_json`] and
+/// [`Recording::to_json`] are exact inverses.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Recording {
     /// Name, unique among the events of a file.

@@ -10,7 +10,7 @@ pub struct Instructions {
     pub you: &'static str,
     /// The player's own task, in a sentence.
     pub yours: String,
-    /// What the other agent tries, in a sentence to the player.
+    /// The other agent's task, in a sentence to the player.
     pub theirs: String,
 }
 

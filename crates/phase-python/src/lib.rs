@@ -1,8 +1,8 @@
 //! The native part of the Python package `phase_events`, the module `phase_events._native`.
 //!
-//! It hands numbers over as numpy arrays and everything else as JSON, in the formats of `docs/reference/formats/overview.md`, so
-//! that Python and files have one vocabulary. What users see, with types, units and errors, is documented in
-//! the package, `python/phase_events`.
+//! It hands numbers over as numpy arrays and everything else as JSON, in the formats of
+//! `docs/reference/formats/overview.md`, so that Python and files have one vocabulary. What users see, with
+//! types, units and errors, is documented in the package, `python/phase_events`.
 //!
 //! Key design decision: an agent's observation is one vector of fixed length ([`phase_sim::vector`]).
 //! Learners, vector environments and PHASE's own minds read the same vector, and nothing is lost in it: two

@@ -12,7 +12,8 @@
 //! without labels, so that labels cannot leak into the inference. The trade-off is that actions and grips,
 //! which trajectories do not contain, have to be inferred.
 //!
-//! `docs/explanation/simple.md` states how the paper's formulas were interpreted and where this goes beyond them.
+//! `docs/explanation/simple.md` states how the paper's formulas were interpreted and where this goes beyond
+//! them.
 //!
 //! Agent 0 is observed for eight steps on its way from one landmark to the next, while agent 1 rests. The
 //! most likely goal of agent 0 is to reach that next landmark:

@@ -15,7 +15,8 @@ pub struct Benchmark {
     /// Also evaluate on these recordings (a phase-events/1 file, or a folder of events)
     #[arg(long, value_name = "FILE|DIR")]
     pub real: Option<PathBuf>,
-    /// Ratings by people of the relations of the recordings (phase-ratings/1; see docs/reference/formats/studies.md)
+    /// Ratings by people of the relations of the recordings (phase-ratings/1; see
+    /// docs/reference/formats/studies.md)
     #[arg(long, value_name = "FILE", requires = "real")]
     pub ratings: Option<PathBuf>,
     /// Also evaluate goals on this dataset of sets, such as phase-pairs; not the variants of SIMPLE and not

@@ -48,8 +48,8 @@ pub struct EvalGoals {
         conflicts_with = "predictions"
     )]
     pub watched: Vec<f64>,
-    /// Ratings by people of the relations of the events (phase-ratings/1; see docs/reference/formats/studies.md): also report
-    /// how closely the method's probabilities agree with them
+    /// Ratings by people of the relations of the events (phase-ratings/1; see
+    /// docs/reference/formats/studies.md): also report how closely the method's probabilities agree with them
     #[arg(long, value_name = "FILE")]
     pub ratings: Option<PathBuf>,
     /// Events and output.

@@ -4,9 +4,9 @@
 //! cargo run --release -p phase-pomcp --example anchors -- rocksample-15-15 --simulations 1024,4096
 //! ```
 //!
-//! docs/explanation/planners.md has the results beside published ones. Episodes are spread over all threads; episode k
-//! has seed `--seed` + k in every row, so that all rows share the start states, and results do not depend on
-//! the number of threads.
+//! docs/explanation/planners.md has the results beside published ones. Episodes are spread over all threads;
+//! episode k has seed `--seed` + k in every row, so that all rows share the start states, and results do not
+//! depend on the number of threads.
 
 mod episodes;
 mod layouts;

@@ -45,7 +45,8 @@ struct State {
 }
 
 impl IntentNetwork {
-    /// The weights trained by `cargo train intent-network`; `docs/explanation/networks.md` describes the training data.
+    /// The weights trained by `cargo train intent-network`; `docs/explanation/networks.md` describes the
+    /// training data.
     pub const BUNDLED_WEIGHTS: &'static [u8] = phase_data::INTENT_NETWORK.weights;
 
     /// The network that comes with the program.

@@ -27,8 +27,8 @@ pub struct File {
 }
 
 /// The Psych-DS dataset of a study (<https://psych-ds.github.io/>): `dataset_description.json`, `README.md`
-/// and two tables in `data`, of answers and of raters; `docs/reference/formats/studies.md` has their columns. With
-/// `external_ids` the table of raters has with what they came.
+/// and two tables in `data`, of answers and of raters; `docs/reference/formats/studies.md` has their columns.
+/// With `external_ids` the table of raters has with what they came.
 #[must_use]
 pub fn psych_ds(config: &StudyConfig, forms: &Forms, raters: &[Rater], external_ids: bool) -> Vec<File> {
     let present: Vec<&Rater> = raters.iter().filter(|rater| rater.departure.is_none()).collect();
