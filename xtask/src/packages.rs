@@ -68,9 +68,7 @@ impl Elsewhere {
         // Cargo names the executable that started this one.
         let mut cargo = process::Command::new(env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
         cargo.args(["run", "--package", self.package, "--manifest-path"]).arg(root().join("Cargo.toml"));
-        if !cfg!(debug_assertions) {
-            cargo.arg("--release");
-        }
+        cargo.args((!cfg!(debug_assertions)).then_some("--release"));
         if cfg!(feature = "networks") && WITH_NETWORKS.contains(&self.package) {
             cargo.args(["--features", "networks"]);
         }
