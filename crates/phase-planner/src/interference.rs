@@ -10,9 +10,9 @@
 use crate::{
     plan::{self, Plan, is, not},
     problem::{Location, PlanningProblem},
-    search::{self, SymbolicPlan},
+    search,
     symbolic::{Node, Operator},
-    task::{Effort, PlanningTask},
+    task::{Effort, PlanningTask, TaskPlan},
 };
 use phase_model::{
     AgentId, BodySet, Entity, Goal, LandmarkId, ObjectId, Predicate, PredicateTarget, SlotId, Vec2,
@@ -70,7 +70,7 @@ struct Interference<'a> {
     /// because holding is.
     start: Node,
     /// The other's cheapest plan from there.
-    others_plan: Option<SymbolicPlan>,
+    others_plan: Option<TaskPlan>,
     /// Its cost (u).
     now: f32,
 }
@@ -128,7 +128,7 @@ impl<'a> Interference<'a> {
         self.capped(search::solve(&self.others_task(narrowed), *node).as_ref(), node)
     }
 
-    fn capped(&self, plan: Option<&SymbolicPlan>, node: &Node) -> f32 {
+    fn capped(&self, plan: Option<&TaskPlan>, node: &Node) -> f32 {
         let cost = plan.map_or_else(|| self.pushing(node), |plan| plan.cost);
         cost.min(self.problem.parameters.impassable)
     }

@@ -10,6 +10,9 @@
 //! is too heavy costs more than any detour. A weak agent without help still pulls at its load, as viewers
 //! expect. The cost is that the existence of a plan does not imply its success; only a low plan cost does.
 //!
+//! The search itself knows nothing of PHASE: [`search::solve`] finds the cheapest plan, of one agent or of
+//! several together, for any [`search::SymbolicProblem`].
+//!
 //! This crate does not depend on a physics engine: it uses only widths, forces and straight-line distances,
 //! so it can plan for any agent with a map. In this example one agent has to get from the upper left room to
 //! the upper right one, where walls leave a single path:
@@ -58,4 +61,5 @@ pub use parameters::PlannerParameters;
 pub use plan::Plan;
 pub use planner::Planner;
 pub use problem::{Location, PlanningProblem};
+pub use search::{SymbolicPlan, SymbolicProblem};
 pub use value::Candidate;

@@ -2,6 +2,7 @@
 
 use crate::{
     problem::{Location, PlanningProblem},
+    search::{SymbolicPlan, SymbolicProblem},
     symbolic::{Node, Operator},
 };
 use phase_model::{
@@ -54,10 +55,15 @@ pub struct PlanningTask<'a> {
     pub narrowed: Option<(AgentId, Gaps)>,
 }
 
-impl PlanningTask<'_> {
+/// The plan of a [`PlanningTask`].
+pub type TaskPlan = SymbolicPlan<Node, Operator>;
+
+impl SymbolicProblem for PlanningTask<'_> {
+    type State = Node;
+    type Operator = Operator;
+
     /// Whether the goal holds in a symbolic state and no acting agent holds anything.
-    #[must_use]
-    pub fn is_done(&self, node: &Node) -> bool {
+    fn is_goal(&self, node: &Node) -> bool {
         let reached = match self.goal {
             Goal::AgentOnLandmark { agent, landmark, .. } => {
                 node.agents[agent] == Location::Landmark(landmark)
@@ -79,8 +85,7 @@ impl PlanningTask<'_> {
     /// agent that holds an object from the start: it is still at arm's length, and carrying may be charged
     /// for the object's path only. Such an agent is therefore taken to be at its own location or at the
     /// object's, whichever is closer. Releasing the object removes the choice, so the bound only rises.
-    #[must_use]
-    pub fn heuristic(&self, node: &Node) -> f32 {
+    fn heuristic(&self, node: &Node) -> f32 {
         let distance =
             |from: Location, to: Location| self.problem.position(from).distance(self.problem.position(to));
         let places = |agent: AgentId| {
@@ -106,8 +111,7 @@ impl PlanningTask<'_> {
     }
 
     /// All possible next actions of the acting agents: operator, symbolic state after it, cost (u).
-    #[must_use]
-    pub fn successors(&self, node: &Node) -> Vec<(Operator, Node, f32)> {
+    fn successors(&self, node: &Node) -> impl IntoIterator<Item = (Operator, Node, f32)> {
         let mut successors = Vec::with_capacity(12);
         for agent in AgentId::ALL.into_iter().filter(|&agent| self.actors[agent]) {
             match node.holds[agent] {
@@ -117,7 +121,9 @@ impl PlanningTask<'_> {
         }
         successors
     }
+}
 
+impl PlanningTask<'_> {
     /// Path cost to a location (u), for an agent or for an object and its holders, with penalties for doors
     /// that one of them does not fit through. All holders have to come along, so the longest path counts. The
     /// object `ignored`, which the agent holds or heads for, is not an obstacle.

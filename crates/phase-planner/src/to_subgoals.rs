@@ -3,15 +3,14 @@
 use crate::{
     plan::{Plan, drop_satisfied, is, not, rooms},
     problem::Location,
-    search::SymbolicPlan,
     symbolic::{Node, Operator},
-    task::PlanningTask,
+    task::{PlanningTask, TaskPlan},
 };
 use phase_model::{AgentId, Entity, ObjectId, Predicate, PredicateTarget, Subgoal};
 
 /// One agent's own part of a symbolic plan as subgoals, and the distance that all agents have to travel.
 #[must_use]
-pub(crate) fn to_subgoals(task: &PlanningTask<'_>, plan: &SymbolicPlan, agent: AgentId) -> Plan {
+pub(crate) fn to_subgoals(task: &PlanningTask<'_>, plan: &TaskPlan, agent: AgentId) -> Plan {
     let mut subgoals = Vec::with_capacity(8);
     let mut distance = 0.0;
     for (node, operator) in &plan.steps {

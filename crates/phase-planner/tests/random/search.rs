@@ -9,7 +9,12 @@ use petgraph::{
     visit::{EdgeRef, Reversed},
 };
 use phase_navigation::Map;
-use phase_planner::{PlannerParameters, PlanningProblem, search::solve, symbolic::Node, task::PlanningTask};
+use phase_planner::{
+    PlannerParameters, PlanningProblem,
+    search::{SymbolicProblem, solve},
+    symbolic::Node,
+    task::PlanningTask,
+};
 use proptest::{
     strategy::{Strategy, ValueTree},
     test_runner::TestRunner,
@@ -37,7 +42,7 @@ impl Reachable {
         let mut indices = HashMap::from([(start, first)]);
         let mut open = vec![(start, first)];
         while let Some((node, from)) = open.pop() {
-            if task.is_done(&node) {
+            if task.is_goal(&node) {
                 graph.add_edge(from, end, 0);
             }
             for (_, after, cost) in task.successors(&node) {
@@ -81,7 +86,7 @@ fn no_plan_is_cheaper_and_the_heuristic_is_a_lower_bound() {
         assert_eq!(found.as_ref().map(|plan| plan.cost), least, "{random_problem:?}");
         let Some(found) = found else { continue };
         solved += 1;
-        assert!(task.is_done(&found.end), "{random_problem:?}");
+        assert!(task.is_goal(&found.end), "{random_problem:?}");
         for (index, &cost) in &remaining {
             let Some(node) = reachable.graph[*index] else { continue };
             let bound = (task.heuristic(&node) * COST_RESOLUTION) as u32;

@@ -1,0 +1,78 @@
+//! Plans for problems that have nothing to do with PHASE, compared with Dijkstra's algorithm.
+
+use petgraph::{
+    algo::dijkstra,
+    graph::{DiGraph, NodeIndex},
+    visit::{EdgeRef, Reversed},
+};
+use phase_planner::search::{SymbolicProblem, solve};
+use proptest::prelude::*;
+
+/// A problem whose states are the nodes of a graph; a state's lower bound is a share of what really is left.
+#[derive(Debug)]
+struct Graph {
+    graph: DiGraph<f32, u16>,
+    goal: u32,
+}
+
+impl SymbolicProblem for Graph {
+    type State = u32;
+    type Operator = u32;
+
+    fn successors(&self, state: &u32) -> impl IntoIterator<Item = (u32, u32, f32)> {
+        self.graph.edges(NodeIndex::from(*state)).map(|edge| {
+            let to = edge.target().index() as u32;
+            (to, to, f32::from(*edge.weight()))
+        })
+    }
+
+    fn is_goal(&self, state: &u32) -> bool {
+        *state == self.goal
+    }
+
+    fn heuristic(&self, state: &u32) -> f32 {
+        self.graph[NodeIndex::from(*state)]
+    }
+}
+
+/// Graphs of up to 20 states, with bounds that are lower bounds and seldom consistent.
+fn graphs() -> impl Strategy<Value = Graph> {
+    let edges = proptest::collection::vec((0_u32..20, 0_u32..20, 0_u16..100), 0..80);
+    let shares = proptest::collection::vec(0.0_f32..=1.0, 20);
+    (edges, shares, 0_u32..20).prop_map(|(edges, shares, goal)| {
+        let mut graph = DiGraph::from_edges(edges);
+        while graph.node_count() < 20 {
+            graph.add_node(0.0);
+        }
+        let left = dijkstra(Reversed(&graph), goal.into(), None, |edge| u32::from(*edge.weight()));
+        let nodes: Vec<_> = graph.node_indices().collect();
+        for node in nodes {
+            let bound = left.iter().find(|&(of, _)| *of == node).map_or(1e5, |(_, &left)| left as f32);
+            graph[node] = bound * shares[node.index()];
+        }
+        Graph { graph, goal }
+    })
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(2000))]
+
+    #[test]
+    fn a_plan_is_valid_and_none_is_cheaper(problem in graphs(), start in 0_u32..20) {
+        let costs = dijkstra(&problem.graph, start.into(), None, |edge| u32::from(*edge.weight()));
+        let least = costs.into_iter().find(|(node, _)| node.index() as u32 == problem.goal);
+        let plan = solve(&problem, start);
+        prop_assert_eq!(plan.as_ref().map(|plan| plan.cost), least.map(|(_, cost)| cost as f32));
+        let Some(plan) = plan else { return Ok(()) };
+        let mut state = start;
+        let mut sum = 0.0;
+        for (before, operator) in &plan.steps {
+            prop_assert_eq!(*before, state);
+            let cheapest = problem.successors(&state).into_iter().filter(|(to, ..)| to == operator);
+            sum += cheapest.map(|(.., cost)| cost).fold(f32::INFINITY, f32::min);
+            state = *operator;
+        }
+        prop_assert_eq!((state, sum), (plan.end, plan.cost));
+        prop_assert!(problem.is_goal(&plan.end));
+    }
+}
