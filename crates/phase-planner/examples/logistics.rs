@@ -1,5 +1,5 @@
-//! Logistics: several carriers plan together. Trucks drive within their cities, an aeroplane between airports,
-//! and parcels change from one to another.
+//! Logistics: several carriers plan together. Trucks drive within their cities, an aeroplane between
+//! airports, and parcels change from one to another.
 //!
 //! `cargo run --package phase-planner --example logistics`
 
@@ -95,8 +95,8 @@ impl SymbolicProblem for Logistics {
 }
 
 fn main() {
-    // A parcel from the suburb 2 of the first city to the suburb 4 of the second, and one the other way as far as
-    // the airport.
+    // A parcel from the suburb 2 of the first city to the suburb 4 of the second, and one the other way as
+    // far as the airport.
     let problem = Logistics { destinations: vec![4, 0] };
     let world = World { carriers: [0, 4, 0], parcels: vec![Parcel::At(2), Parcel::At(4)] };
     let plan = solve(&problem, world).expect("everything can be delivered");
@@ -108,8 +108,8 @@ fn main() {
         println!("carrier {carrier}: {}", part.join(", "));
     }
     println!("cost {}", plan.cost);
-    // The aeroplane flies there and back, and each truck makes two drives. One parcel travels in all three carriers and the
-    // other in two, and is loaded and unloaded each time.
+    // The aeroplane flies there and back, and each truck makes two drives. One parcel travels in all three
+    // carriers and the other in two, and is loaded and unloaded each time.
     assert_eq!(plan.cost, 2.0 * FLIGHT + 4.0 * DRIVE + 3.0 * 2.0 + 2.0 * 2.0);
 }
 

@@ -48,14 +48,14 @@ use std::hash::Hash;
 pub trait SymbolicProblem {
     /// A state. States that are equal are one state, however they were reached.
     type State: Clone + Eq + Hash;
-    /// What leads from one state to another.
+    /// An action that leads from one state to another.
     type Operator;
 
     /// Every operator that can be applied in a state, with the state after it and its cost.
     ///
-    /// Costs lie between 0 and 10⁶ in a unit of the problem's own; lower ones, and NaN, count as 0, higher ones
-    /// as 10⁶. They are rounded up to 1/256. The number of states that can be reached has to be finite where
-    /// there may be no plan, or [`solve`] does not end.
+    /// Costs lie between 0 and 10⁶ in a unit of the problem's own; lower ones, and NaN, count as 0, higher
+    /// ones as 10⁶. They are rounded up to 1/256. The number of states that can be reached has to be finite
+    /// where there may be no plan, or [`solve`] does not end.
     fn successors(&self, state: &Self::State)
     -> impl IntoIterator<Item = (Self::Operator, Self::State, f32)>;
 
@@ -64,9 +64,9 @@ pub trait SymbolicProblem {
 
     /// A lower bound on the cost from a state to the nearest goal state.
     ///
-    /// The plan that is found is the cheapest if the bound is never too high; 0, the default, always is a lower
-    /// bound and makes A* Dijkstra's algorithm. No state is expanded twice if the bound is *consistent* too: no
-    /// operator lowers it by more than the operator costs.
+    /// The plan that is found is the cheapest if the bound is never too high; 0, the default, always is a
+    /// lower bound and makes A* Dijkstra's algorithm. No state is expanded twice if the bound is *consistent*
+    /// too: no operator lowers it by more than the operator costs.
     fn heuristic(&self, _state: &Self::State) -> f32 {
         0.0
     }
@@ -84,7 +84,8 @@ pub struct SymbolicPlan<State, Operator> {
 }
 
 impl<State, Operator> SymbolicPlan<State, Operator> {
-    /// The steps of the operators that `is_own` accepts, such as those of one agent of a joint plan, in order.
+    /// The steps of the operators that `is_own` accepts, such as those of one agent of a joint plan, in
+    /// order.
     pub fn part(&self, is_own: impl Fn(&Operator) -> bool) -> impl Iterator<Item = &(State, Operator)> {
         self.steps.iter().filter(move |(_, operator)| is_own(operator))
     }
