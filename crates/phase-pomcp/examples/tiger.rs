@@ -2,8 +2,8 @@
 //! Cassandra 1998).
 //!
 //! The problem is the `impl` block, the solution is `main`: twelve steps of an episode, with a search and an
-//! update of the belief at each. Run it with `cargo run --release -p phase-pomcp --example tiger -- [SEED]`;
-//! the example `anchors` measures the returns of whole episodes.
+//! update of the belief at each, and the tree of the first search. Run it with `cargo run --release -p
+//! phase-pomcp --example tiger -- [SEED]`; the example `anchors` measures the returns of whole episodes.
 
 use phase_pomcp::{BeliefModel, GenerativeModel, ParticleBelief, Pomcp, PomcpSettings, Transition};
 use rand::{Rng, RngExt, SeedableRng};
@@ -71,8 +71,12 @@ fn main() -> Result<(), Box<dyn Error>> {
     let mut pomcp = Pomcp::new(SETTINGS)?;
     let mut tiger: bool = random.random();
     let mut belief = ParticleBelief::new((0..PARTICLES).map(|k| k % 2 == 0).collect())?;
-    for _ in 0..12 {
+    for step in 0..12 {
         let decision = pomcp.search(&Tiger, belief.particles(), &mut random)?;
+        if step == 0 {
+            // Two levels, without what fewer than 50 simulations reached; `to_dot` draws them for Graphviz.
+            println!("{}", pomcp.view(2, 50));
+        }
         let outcome = Tiger.step(&mut tiger, decision.action, &mut random);
         belief.update(&Tiger, decision.action, &outcome.observation, &mut random)?;
         let visits: Vec<usize> = decision.actions.iter().map(|action| action.visits).collect();

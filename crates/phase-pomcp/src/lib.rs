@@ -52,8 +52,8 @@
 //!
 //! The trade-off: the model must return observations coarse enough for simulations to meet again, since the
 //! tree has no notion of similar observations; branches of an action are searched linearly, fine for dozens
-//! and slow for thousands; and every search starts from an empty tree: a belief is updated by the model, not
-//! by the particles of a subtree as in POMCP.
+//! and slow for thousands; and a belief is updated by the model, not by the particles of a subtree as in
+//! POMCP, though a search can go on in the subtree ([`Pomcp::keep`]).
 //!
 //! # Determinism
 //!
@@ -79,6 +79,7 @@ mod search;
 mod settings;
 mod simulation;
 mod tree;
+mod view;
 
 pub use belief::{BeliefError, BeliefModel, BeliefUpdate, DEFAULT_ATTEMPTS, ParticleBelief};
 pub use decision::{ActionStatistics, Decision, SearchStatistics};
@@ -86,3 +87,4 @@ pub use error::PomcpError;
 pub use model::{GenerativeModel, Transition};
 pub use search::Pomcp;
 pub use settings::PomcpSettings;
+pub use view::{ActionView, HistoryView};

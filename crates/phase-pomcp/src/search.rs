@@ -5,15 +5,18 @@ use rand::{Rng, RngExt};
 use crate::puct::{ExplorationTable, ValueRange};
 use crate::simulation::{PathStep, Simulations};
 use crate::tree::{HistoryId, Tree};
-use crate::{ActionStatistics, Decision, GenerativeModel, PomcpError, PomcpSettings, SearchStatistics};
+use crate::{
+    ActionStatistics, Decision, GenerativeModel, HistoryView, PomcpError, PomcpSettings, SearchStatistics,
+};
 
 /// A POMCP planner (Silver & Veness 2010) and the memory it searches in, over problems whose observations are
 /// of type `O`.
 ///
-/// Every search starts from an empty tree, and its result depends on the settings, the model, the particles
-/// and the generator alone, not on earlier searches. Only the memory is reused, so that after the first few
-/// searches a search allocates its [`Decision`] and one copy of a state, and nothing per simulation; for a
-/// [deterministic](GenerativeModel::is_deterministic) model, a copy of every state in the tree.
+/// A [`search`](Self::search) starts from an empty tree, and its result depends on the settings, the model,
+/// the particles and the generator alone, not on earlier searches. Only the memory is reused, so that after
+/// the first few searches a search allocates its [`Decision`] and one copy of a state, and nothing per
+/// simulation; for a [deterministic](GenerativeModel::is_deterministic) model, a copy of every state in the
+/// tree.
 #[derive(Debug, Clone)]
 pub struct Pomcp<O> {
     settings: PomcpSettings,
@@ -37,6 +40,29 @@ impl<O: Eq> Pomcp<O> {
         &self.settings
     }
 
+    /// Keeps, of the tree of the last search, what follows an action that was taken and the observation that
+    /// was made, so that [`search_on`](Self::search_on) goes on from there; returns the number of simulations
+    /// that this part has.
+    ///
+    /// An observation that no simulation made leaves an empty tree, and 0.
+    pub fn keep(&mut self, action: usize, observation: &O) -> usize {
+        match self.tree.find(HistoryId::ROOT, action, observation) {
+            Some(history) => self.tree.keep(history),
+            None => self.tree.reset(),
+        }
+        self.tree.visits(HistoryId::ROOT)
+    }
+
+    /// The tree of the last search as data: `levels` of actions deep, without actions and histories that have
+    /// fewer visits than `least_visits`. Before the first search it is empty.
+    #[must_use]
+    pub fn view(&self, levels: u8, least_visits: usize) -> HistoryView<O>
+    where
+        O: Clone,
+    {
+        self.tree.view(HistoryId::ROOT, levels, least_visits)
+    }
+
     /// Finds the action to take when the present state is one of `roots`, all equally likely.
     ///
     /// Each simulation samples one of them, follows PUCT down the tree, adds the first history that is not in
@@ -56,19 +82,46 @@ impl<O: Eq> Pomcp<O> {
     where
         M: GenerativeModel<Observation = O>,
     {
-        let root = roots.first().ok_or(PomcpError::NoRoots)?;
-        let action_count = checked_action_count(model, self.settings.simulations)?;
-        let discount = checked_discount(model)?;
         self.tree.reset();
+        self.search_on(model, roots, random)
+    }
+
+    /// Finds the action as [`search`](Self::search) does, in the tree that [`keep`](Self::keep) left: its
+    /// simulations count as well. `roots` is the belief after the observation; the model and the settings
+    /// must be those of the search before.
+    ///
+    /// With fewer particles than simulations a search sees the same few states again and again. The part that
+    /// is kept was made from states of the belief before, which this one has forgotten, so the statistics mix
+    /// both. The first search after [`new`](Self::new) starts from an empty tree.
+    ///
+    /// # Errors
+    /// As [`search`](Self::search).
+    pub fn search_on<M>(
+        &mut self,
+        model: &M,
+        roots: &[M::State],
+        random: &mut impl Rng,
+    ) -> Result<Decision, PomcpError>
+    where
+        M: GenerativeModel<Observation = O>,
+    {
+        let root = roots.first().ok_or(PomcpError::NoRoots)?;
+        let kept = self.tree.history_count() - 1;
+        let action_count = checked_action_count(model, self.settings.simulations.saturating_add(kept))?;
+        let discount = checked_discount(model)?;
+        let mut range = ValueRange::EMPTY;
+        self.tree.values().for_each(|value| range.include(value));
         let mut simulations = Simulations {
             model,
             settings: &self.settings,
             action_count,
             discount,
             tree: &mut self.tree,
-            known: (model.is_deterministic() && roots.len() == 1).then(|| vec![(root.clone(), 0.0)]),
+            // The states that the kept part was made from are gone.
+            known: (kept == 0 && model.is_deterministic() && roots.len() == 1)
+                .then(|| vec![(root.clone(), 0.0)]),
             table: &mut self.table,
-            range: ValueRange::EMPTY,
+            range,
             weights: Vec::with_capacity(action_count),
             path: &mut self.path,
             depth: 0,

@@ -3,7 +3,7 @@
 use rand::{Rng, RngExt};
 
 use crate::puct::{self, ExplorationTable, ValueRange};
-use crate::{PomcpError, PomcpSettings};
+use crate::{ActionView, HistoryView, PomcpError, PomcpSettings};
 
 /// The index of a history in its tree.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -68,8 +68,9 @@ const NONE: u32 = u32::MAX;
 const ILLEGAL: f64 = -1.0;
 
 impl<O: Eq> Tree<O> {
+    /// A tree with an unvisited root.
     pub(crate) fn new() -> Self {
-        Self { histories: Vec::new(), actions: Vec::new(), branches: Vec::new() }
+        Self { histories: vec![History::LEAF], actions: Vec::new(), branches: Vec::new() }
     }
 
     /// Resets the tree to an unvisited root.
@@ -82,6 +83,11 @@ impl<O: Eq> Tree<O> {
 
     pub(crate) fn history_count(&self) -> usize {
         self.histories.len()
+    }
+
+    /// Number of simulations that chose an action after a history.
+    pub(crate) fn visits(&self, history: HistoryId) -> usize {
+        self.histories[history.index()].visits as usize
     }
 
     pub(crate) fn has_actions(&self, history: HistoryId) -> bool {
@@ -188,6 +194,89 @@ impl<O: Eq> Tree<O> {
     pub(crate) fn newest_child(&self, action: ActionId) -> Option<HistoryId> {
         let branch = self.branches.get(self.actions[action.0 as usize].branch as usize)?;
         Some(HistoryId(branch.child))
+    }
+
+    /// The history that an observation after an action leads to, if it is in the tree.
+    pub(crate) fn find(&self, history: HistoryId, action: usize, observation: &O) -> Option<HistoryId> {
+        let node = &self.histories[history.index()];
+        let branches = self.branches_of(self.actions_of(node).get(action)?);
+        branches.into_iter().find(|branch| branch.observation == *observation).map(|it| HistoryId(it.child))
+    }
+
+    /// Makes a history the root, and drops everything that does not follow it. Statistics stay as they are.
+    pub(crate) fn keep(&mut self, root: HistoryId) {
+        let mut old = std::mem::replace(self, Self::new());
+        let mut branches: Vec<_> = old.branches.drain(..).map(Some).collect();
+        // Old and new numbers of histories that are still to be copied.
+        let mut open = vec![(root.0, 0)];
+        while let Some((from, to)) = open.pop() {
+            let node = old.histories[from as usize];
+            let first = node.first_action as usize;
+            let first_action = self.actions.len() as u32;
+            self.histories[to as usize] = History { first_action, ..node };
+            for action in &old.actions[first..first + node.action_count as usize] {
+                let mut newest = NONE;
+                let mut next = action.branch;
+                let mut kept = Vec::new();
+                while let Some(branch) = branches.get_mut(next as usize).and_then(Option::take) {
+                    next = branch.next;
+                    kept.push(branch);
+                }
+                // The newest is first in the list, and is added last.
+                for Branch { observation, child, .. } in kept.into_iter().rev() {
+                    let new = self.histories.len() as u32;
+                    self.histories.push(History::LEAF);
+                    open.push((child, new));
+                    self.branches.push(Branch { observation, child: new, next: newest });
+                    newest = self.branches.len() as u32 - 1;
+                }
+                self.actions.push(Action { branch: newest, ..*action });
+            }
+        }
+    }
+
+    /// The mean values of all actions in the tree that were tried.
+    pub(crate) fn values(&self) -> impl Iterator<Item = f64> {
+        self.actions.iter().filter(|action| action.visits > 0).map(|action| action.value)
+    }
+
+    /// The tree below a history as data, `levels` of actions deep, without what has fewer visits.
+    pub(crate) fn view(&self, history: HistoryId, levels: u8, least_visits: usize) -> HistoryView<O>
+    where
+        O: Clone,
+    {
+        let node = &self.histories[history.index()];
+        let is_shown = |visits: u32| visits as usize >= least_visits;
+        let mut actions = Vec::new();
+        let all = self.actions_of(node).iter().enumerate();
+        for (action, of) in all.filter(|(_, of)| levels > 0 && of.is_legal() && is_shown(of.visits)) {
+            let branches = self.branches_of(of);
+            let branches =
+                branches.into_iter().filter(|branch| is_shown(self.histories[branch.child as usize].visits));
+            let mut branches: Vec<_> = branches
+                .map(|branch| {
+                    let after = self.view(HistoryId(branch.child), levels - 1, least_visits);
+                    (branch.observation.clone(), after)
+                })
+                .collect();
+            branches.sort_by_key(|(_, after)| std::cmp::Reverse(after.visits));
+            let (visits, value, prior) = (of.visits as usize, of.value, of.prior);
+            actions.push(ActionView { action, visits, value, prior, branches });
+        }
+        actions.sort_by(|a, b| b.visits.cmp(&a.visits).then(b.value.total_cmp(&a.value)));
+        HistoryView { visits: node.visits as usize, actions }
+    }
+
+    /// The branches of an action, in the order in which they were added.
+    fn branches_of(&self, action: &Action) -> Vec<&Branch<O>> {
+        let mut branches = Vec::new();
+        let mut next = action.branch;
+        while let Some(branch) = self.branches.get(next as usize) {
+            branches.push(branch);
+            next = branch.next;
+        }
+        branches.reverse();
+        branches
     }
 
     /// Counts a visit of an action with return `value`, and returns the action's new mean.

@@ -31,6 +31,8 @@ pub(crate) struct RowSettings {
     pub(crate) simulations: usize,
     pub(crate) episodes: u64,
     pub(crate) seed: u64,
+    /// Whether a search goes on in the part of the tree that the last step led to.
+    pub(crate) reuse: bool,
 }
 
 /// A row of the table.
@@ -90,11 +92,16 @@ impl RowSettings {
         let mut belief = ParticleBelief::new(particles)?;
         let mut episode = Episode { earned: 0.0, simulations: 0, seconds: 0.0, steps: 0 };
         let mut weight = 1.0;
+        let mut kept = 0;
         while episode.steps < LONGEST_EPISODE {
             let start = Instant::now();
-            let decision = pomcp.search(problem, belief.particles(), random)?;
+            let roots = belief.particles();
+            let decision = match self.reuse {
+                true => pomcp.search_on(problem, roots, random)?,
+                false => pomcp.search(problem, roots, random)?,
+            };
             episode.seconds += start.elapsed().as_secs_f64();
-            episode.simulations += decision.actions.iter().map(|action| action.visits).sum::<usize>();
+            episode.simulations += decision.actions.iter().map(|action| action.visits).sum::<usize>() - kept;
             let outcome = problem.step(&mut state, decision.action, random);
             episode.earned += weight * outcome.reward;
             episode.steps += 1;
@@ -103,6 +110,9 @@ impl RowSettings {
                 break;
             }
             belief.update(problem, decision.action, &outcome.observation, random)?;
+            if self.reuse {
+                kept = pomcp.keep(decision.action, &outcome.observation);
+            }
         }
         Ok(episode)
     }

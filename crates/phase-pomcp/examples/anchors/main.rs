@@ -35,6 +35,9 @@ struct Arguments {
     /// Seed of the first episode.
     #[arg(long, default_value_t = 1)]
     seed: u64,
+    /// Let each search go on in the part of the tree that the last step led to.
+    #[arg(long)]
+    reuse: bool,
     /// Print one JSON object instead of a table.
     #[arg(long)]
     json: bool,
@@ -67,7 +70,12 @@ fn main() -> Result<(), Box<dyn Error + Send + Sync>> {
     }
     let mut rows = Vec::new();
     for &simulations in &arguments.simulations {
-        let settings = RowSettings { simulations, episodes: arguments.episodes, seed: arguments.seed };
+        let settings = RowSettings {
+            simulations,
+            episodes: arguments.episodes,
+            seed: arguments.seed,
+            reuse: arguments.reuse,
+        };
         let row = row(arguments.problem, &settings)?;
         if !arguments.json {
             let Row { mean, half_width, speed, .. } = row;
@@ -89,7 +97,10 @@ fn main() -> Result<(), Box<dyn Error + Send + Sync>> {
             })
             .collect();
         let (episodes, seed) = (arguments.episodes, arguments.seed);
-        println!("{}", json!({"problem": name, "episodes": episodes, "seed": seed, "rows": rows}));
+        println!(
+            "{}",
+            json!({"problem": name, "episodes": episodes, "seed": seed, "reuse": arguments.reuse, "rows": rows})
+        );
     }
     Ok(())
 }

@@ -11,3 +11,4 @@ mod puct;
 mod returns;
 mod tiger;
 mod tiger_problem;
+mod view;
