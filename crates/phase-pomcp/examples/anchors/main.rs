@@ -96,11 +96,11 @@ fn main() -> Result<(), Box<dyn Error + Send + Sync>> {
                 })
             })
             .collect();
-        let (episodes, seed) = (arguments.episodes, arguments.seed);
-        println!(
-            "{}",
-            json!({"problem": name, "episodes": episodes, "seed": seed, "reuse": arguments.reuse, "rows": rows})
-        );
+        let Arguments { episodes, seed, reuse, .. } = arguments;
+        let printed = json!({
+            "problem": name, "episodes": episodes, "seed": seed, "reuse": reuse, "rows": rows,
+        });
+        println!("{printed}");
     }
     Ok(())
 }

@@ -75,7 +75,8 @@ proptest! {
         // Fewer levels, and only what is visited often.
         let part = pomcp.view(1, 5);
         prop_assert!(part.actions.iter().all(|it| it.visits >= 5));
-        prop_assert!(part.actions.iter().flat_map(|it| &it.branches).all(|(_, after)| after.actions.is_empty()));
+        let mut below = part.actions.iter().flat_map(|it| &it.branches);
+        prop_assert!(below.all(|(_, after)| after.actions.is_empty()));
     }
 
     #[test]
@@ -103,7 +104,9 @@ proptest! {
     }
 
     #[test]
-    fn a_search_that_goes_on_from_nothing_is_a_search(problem in problem(), settings in settings(), seed: u64) {
+    fn a_search_that_goes_on_from_nothing_is_a_search(
+        problem in problem(), settings in settings(), seed: u64
+    ) {
         let roots: Vec<u64> = (0..problem.states).collect();
         let new = || (Pomcp::new(settings).unwrap(), Pcg64Mcg::seed_from_u64(seed));
         let (mut fresh, mut random) = new();
