@@ -25,7 +25,7 @@ pub struct ActionView<O> {
     pub value: f64,
     /// The prior probability, 0 to 1.
     pub prior: f64,
-    /// What was observed after it, with the history that follows, most visited first.
+    /// Observations made after it, with the histories that follow, most visited first.
     pub branches: Vec<(O, HistoryView<O>)>,
 }
 
