@@ -125,3 +125,14 @@ pub fn entries(text: &str) -> Result<Vec<Entry>, JournalError> {
     };
     whole.lines().enumerate().map(entry).collect()
 }
+
+/// Whether the game of a journal is over, so that nothing of it is left to play. Only its first and last
+/// entries are looked at.
+#[must_use]
+pub fn is_over(entries: &[Entry]) -> bool {
+    match (entries.first(), entries.last()) {
+        (_, Some(Entry::Over { .. })) => true,
+        (Some(Entry::Opened { rounds, .. }), Some(Entry::Ended { round })) => *round + 1 >= rounds.len(),
+        _ => false,
+    }
+}

@@ -57,4 +57,4 @@ pub use journal::{Entry, JournalError, Round};
 pub use message::{Doing, Ending, FromPlayer, MessageError, PROTOCOL, ToPlayer};
 pub use playlist::Playlist;
 pub use room::{Effect, Room, RoomError};
-pub use settings::{GameSettings, Player, STEP, View};
+pub use settings::{GameSettings, LONGEST_TIME, MOST_STEPS, Player, STEP, SettingsError, View};

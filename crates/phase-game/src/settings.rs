@@ -4,9 +4,32 @@ use core::time::Duration;
 use phase_model::AGENT_COUNT;
 use phase_sim::SimulationSettings;
 use serde::{Deserialize, Serialize};
+use thiserror::Error;
 
 /// The time that a step takes on the screen: five frames, 20 a second.
 pub const STEP: Duration = Duration::from_millis(250);
+
+/// Longest time that a setting can have: a week.
+pub const LONGEST_TIME: Duration = Duration::from_secs(7 * 24 * 3600);
+/// Most steps of a practice, and most after which a goal counts as achieved: more than an hour.
+pub const MOST_STEPS: usize = 20_000;
+
+/// A setting of a game that is outside of its range.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Error)]
+pub enum SettingsError {
+    /// A time.
+    #[error("{field}: must be at most a week")]
+    Time {
+        /// The setting.
+        field: &'static str,
+    },
+    /// A number of steps.
+    #[error("{field}: must be 1 to {MOST_STEPS} steps")]
+    Steps {
+        /// The setting.
+        field: &'static str,
+    },
+}
 
 /// The part of the world that a player sees.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default, Serialize, Deserialize)]
@@ -70,5 +93,31 @@ impl Default for GameSettings {
             lobby_patience: Duration::from_secs(30 * 60),
             simulation,
         }
+    }
+}
+
+impl GameSettings {
+    /// Checks the settings of the game itself; those of its simulation are checked when it is made.
+    ///
+    /// # Errors
+    /// The first setting that is outside of its range.
+    pub fn validate(&self) -> Result<(), SettingsError> {
+        for (field, time) in [
+            ("countdown", self.countdown),
+            ("patience", self.patience),
+            ("lobby_patience", self.lobby_patience),
+        ] {
+            if time > LONGEST_TIME {
+                return Err(SettingsError::Time { field });
+            }
+        }
+        for (field, steps) in
+            [("achieved_steps", self.achieved_steps), ("practice_steps", self.practice_steps)]
+        {
+            if !(1..=MOST_STEPS).contains(&steps) {
+                return Err(SettingsError::Steps { field });
+            }
+        }
+        Ok(())
     }
 }

@@ -1,6 +1,6 @@
 //! Effects: everything that follows from a call of a room, for its caller to carry out.
 
-use crate::{Entry, ToPlayer};
+use crate::{Entry, ToPlayer, settings::SettingsError};
 use phase_event::Recording;
 use phase_model::AgentId;
 use phase_sim::SimulationError;
@@ -12,7 +12,10 @@ pub enum RoomError {
     /// There is nothing to play.
     #[error("a game needs at least one scene")]
     NoRound,
-    /// A scene or the settings are invalid.
+    /// A setting of the game is outside of its range.
+    #[error(transparent)]
+    Settings(#[from] SettingsError),
+    /// A scene or the settings of its simulation are invalid.
     #[error(transparent)]
     Simulation(#[from] SimulationError),
 }

@@ -16,6 +16,7 @@ use core::time::Duration;
 use phase_model::{AGENT_COUNT, Action, AgentId, Entity, Goal, PhysicsConfig, Sign, words::Names};
 use phase_predicates::achieved;
 use phase_sim::{Simulation, SimulationError, SimulationSettings};
+use telling::Told;
 
 /// The activity of a room; times are those at which it does the next thing.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -34,6 +35,8 @@ struct Seat {
     connected: bool,
     away: bool,
     ready: bool,
+    /// What its page was told last.
+    told: Option<Told>,
     controls: Controls,
 }
 
@@ -78,6 +81,7 @@ impl Room {
         rounds: Vec<Round>,
         now: Duration,
     ) -> Result<Self, RoomError> {
+        settings.validate()?;
         for round in &rounds {
             round.scene.validate().map_err(SimulationError::from)?;
         }
@@ -196,7 +200,7 @@ impl Room {
             return Vec::new();
         }
         let seat = &mut self.seats[agent];
-        (seat.connected, seat.away, seat.controls) = (true, false, Controls::default());
+        (seat.connected, seat.away, seat.told, seat.controls) = (true, false, None, Controls::default());
         let other = agent.other();
         let welcome = ToPlayer::Welcome {
             protocol: PROTOCOL,

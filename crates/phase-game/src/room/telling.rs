@@ -2,13 +2,36 @@
 
 use super::{Effect, Phase, Room};
 use crate::{
-    Instructions, Player, ToPlayer, instructions,
+    Doing, Ending, Instructions, Player, ToPlayer, instructions,
     sight::{sight, stage},
 };
 use core::time::Duration;
 use phase_event::{Controller, Recording};
 use phase_model::{AGENT_COUNT, AgentId, State};
 use serde_json::Value;
+
+/// What a page knows of the activity of a game.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub(super) struct Told {
+    doing: Doing,
+    ready: [bool; AGENT_COUNT],
+    present: [bool; AGENT_COUNT],
+    countdown_until: Option<Duration>,
+    ending: Option<Ending>,
+}
+
+impl Told {
+    fn at(self, now: Duration) -> ToPlayer {
+        let left = |until: Duration| until.saturating_sub(now).as_millis() as u64;
+        ToPlayer::State {
+            doing: self.doing,
+            ready: self.ready,
+            present: self.present,
+            countdown_ms: self.countdown_until.map(left),
+            ending: self.ending,
+        }
+    }
+}
 
 impl Room {
     /// The part of the round that has been played, as a recorded event.
@@ -56,28 +79,37 @@ impl Room {
         });
     }
 
-    /// Tells the players what goes on.
-    pub(super) fn tell(&self, now: Duration, effects: &mut Vec<Effect>) {
-        let countdown = match self.phase {
-            Phase::Countdown { until } => Some(until.saturating_sub(now).as_millis() as u64),
-            _ => None,
-        };
-        let ending = match self.phase {
-            Phase::Over(ending) => Some(ending),
-            _ => None,
-        };
-        self.send_all(effects, |_| ToPlayer::State {
+    /// Tells each player what goes on, unless that is what its page was told last: who repeats a message
+    /// makes no message for the other player.
+    pub(super) fn tell(&mut self, now: Duration, effects: &mut Vec<Effect>) {
+        let told = Told {
             doing: self.doing(),
             ready: self.seats.map(|seat| seat.ready),
             present: self.present(),
-            countdown_ms: countdown,
-            ending,
-        });
+            countdown_until: match self.phase {
+                Phase::Countdown { until } => Some(until),
+                _ => None,
+            },
+            ending: match self.phase {
+                Phase::Over(ending) => Some(ending),
+                _ => None,
+            },
+        };
+        for agent in AgentId::ALL {
+            if self.has_page(agent) && self.seats[agent].told.replace(told) != Some(told) {
+                effects.push(Effect::Send(agent, told.at(now)));
+            }
+        }
+    }
+
+    /// Whether a person plays an agent, and has a connection.
+    fn has_page(&self, agent: AgentId) -> bool {
+        self.settings.players[agent] == Player::Human && self.seats[agent].connected
     }
 
     pub(super) fn send_all(&self, effects: &mut Vec<Effect>, message: impl Fn(AgentId) -> ToPlayer) {
         for agent in AgentId::ALL {
-            if self.settings.players[agent] == Player::Human && self.seats[agent].connected {
+            if self.has_page(agent) {
                 effects.push(Effect::Send(agent, message(agent)));
             }
         }

@@ -4,7 +4,7 @@ use crate::support::{RED, Table, lines, round, settings};
 use core::time::Duration;
 use phase_game::{
     Doing, Entry, FromPlayer, Player, Room,
-    journal::{Actions, entries},
+    journal::{Actions, entries, is_over},
 };
 use phase_model::Action;
 
@@ -38,6 +38,7 @@ fn a_game_goes_on_where_its_journal_ends() {
         for length in 1..journal.len() - 1 {
             let text = lines(&journal[..length]) + "{\"entry\":\"st";
             let read = entries(&text).expect("our own journal");
+            assert!(!is_over(&read), "after {length} entries");
             let resumed = Room::resume(read, Duration::ZERO).expect("our own journal");
             let (room, effects) = resumed.unwrap_or_else(|| panic!("not over after {length} entries"));
             let mut table = Table { room, now: Duration::ZERO, effects }.both_come();
@@ -45,6 +46,7 @@ fn a_game_goes_on_where_its_journal_ends() {
             assert_eq!(table.recordings(), expected, "after {length} entries");
         }
         for length in [journal.len() - 1, journal.len()] {
+            assert!(is_over(&journal[..length]));
             let resumed = Room::resume(journal[..length].to_vec(), Duration::ZERO).expect("our own journal");
             assert!(resumed.is_none());
         }

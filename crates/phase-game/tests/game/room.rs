@@ -248,3 +248,39 @@ fn a_failed_simulation_ends_the_game_and_says_why() {
     assert!(errors[0].to_string().contains("simulations"), "{}", errors[0]);
     assert_eq!(table.entries().last(), Some(&Entry::Over { ending: Ending::Failed }));
 }
+
+/// Whoever repeats a message makes no work for the other player.
+#[test]
+fn what_changes_nothing_is_not_told() {
+    let mut table = Table::two().both_come();
+    for message in [FromPlayer::Ready, FromPlayer::Away(true)] {
+        table.tell(RED, message);
+        let told = table.effects.len();
+        (0..100).for_each(|_| table.tell(RED, message));
+        assert_eq!(table.effects.len(), told, "{message:?}");
+    }
+    // A page that comes again is told all the same.
+    let effects = table.room.connect(GREEN, table.now);
+    assert!(effects.iter().any(|it| matches!(it, Effect::Send(GREEN, ToPlayer::State { .. }))));
+}
+
+/// Times are added to others and steps are counted, whoever wrote the settings.
+#[test]
+fn settings_have_ranges() {
+    let open = |settings: GameSettings| {
+        let rounds = vec![round("", "independent")];
+        phase_game::Room::open("room", [None, None], settings, rounds, Duration::ZERO)
+    };
+    let good = settings([Player::Human; 2]);
+    let longest = phase_game::LONGEST_TIME;
+    assert!(open(GameSettings { lobby_patience: longest, ..good }).is_ok());
+    for bad in [
+        GameSettings { lobby_patience: Duration::MAX, ..good },
+        GameSettings { patience: longest + Duration::from_nanos(1), ..good },
+        GameSettings { countdown: Duration::MAX, ..good },
+        GameSettings { practice_steps: 0, ..good },
+        GameSettings { achieved_steps: usize::MAX, ..good },
+    ] {
+        assert!(matches!(open(bad), Err(RoomError::Settings(_))), "{bad:?}");
+    }
+}
