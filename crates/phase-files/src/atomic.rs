@@ -1,10 +1,10 @@
 //! Files that are complete or absent: written to a temporary file, synced, renamed.
 
-use crate::{WriteError, fault};
+use crate::{WriteError, fault, private};
 use serde::Serialize;
 use std::{
     ffi::OsString,
-    fs::{self, File, TryLockError},
+    fs::{self, File, OpenOptions, TryLockError},
     io::{self, BufWriter, Write},
     path::{Path, PathBuf},
     sync::atomic::{AtomicU64, Ordering},
@@ -19,6 +19,16 @@ const PART_SUFFIX: &str = ".part";
 /// If the file cannot be written; then no part of it remains and an older file of this name is unchanged.
 pub fn write(path: &Path, bytes: &[u8]) -> Result<(), WriteError> {
     let mut file = AtomicFile::create(path)?;
+    file.write_all(bytes).map_err(|source| file.failed(source))?;
+    file.commit()
+}
+
+/// Writes a file as [`write()`] does, for its owner alone; see [`private`].
+///
+/// # Errors
+/// As [`write()`].
+pub fn write_private(path: &Path, bytes: &[u8]) -> Result<(), WriteError> {
+    let mut file = AtomicFile::create_with(path, private::options())?;
     file.write_all(bytes).map_err(|source| file.failed(source))?;
     file.commit()
 }
@@ -95,7 +105,11 @@ impl AtomicFile {
     /// # Errors
     /// If no file can be created there.
     pub fn create(path: &Path) -> Result<Self, WriteError> {
-        match fault::step().and_then(|()| create_locked(path)) {
+        Self::create_with(path, OpenOptions::new())
+    }
+
+    fn create_with(path: &Path, options: OpenOptions) -> Result<Self, WriteError> {
+        match fault::step().and_then(|()| create_locked(path, options)) {
             Ok((part, file)) => Ok(Self { path: path.to_owned(), part, writer: Some(BufWriter::new(file)) }),
             Err(source) => Err(error(path, source)),
         }
@@ -157,10 +171,11 @@ pub fn is_part(name: &str) -> bool {
 
 /// Creates the temporary file of a path, and locks it. Between its creation and its lock [`remove_abandoned`]
 /// can take it for abandoned; then another one is created.
-fn create_locked(path: &Path) -> io::Result<(PathBuf, File)> {
+fn create_locked(path: &Path, mut options: OpenOptions) -> io::Result<(PathBuf, File)> {
+    options.write(true).create(true).truncate(true);
     loop {
         let part = part_path(path);
-        let file = File::create(&part)?;
+        let file = options.open(&part)?;
         match file.try_lock() {
             // Somebody is removing it.
             Err(TryLockError::WouldBlock) => {}

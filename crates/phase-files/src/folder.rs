@@ -3,7 +3,7 @@
 use crate::{
     WriteError, atomic,
     error::plain_reason,
-    fault, json,
+    fault, json, private,
     run::{self, RUN_FORMAT, Run},
 };
 use serde_json::Value;
@@ -137,9 +137,24 @@ impl Lock {
     /// # Errors
     /// [`FolderError::NotWritable`] or [`FolderError::Busy`].
     pub fn take(path: &Path) -> Result<Self, FolderError> {
+        let failed = |source| WriteError { path: path.to_owned(), action: "create the folder", source };
+        fs::create_dir_all(path).map_err(failed)?;
+        Self::take_with(path, OpenOptions::new())
+    }
+
+    /// As [`Lock::take`], with a folder and a lock that are their owner's alone if they are created; see
+    /// [`private`].
+    ///
+    /// # Errors
+    /// [`FolderError::NotWritable`] or [`FolderError::Busy`].
+    pub fn take_private(path: &Path) -> Result<Self, FolderError> {
+        let failed = |source| WriteError { path: path.to_owned(), action: "create the folder", source };
+        private::create_folder(path).map_err(failed)?;
+        Self::take_with(path, private::options())
+    }
+
+    fn take_with(path: &Path, mut options: OpenOptions) -> Result<Self, FolderError> {
         let failed = |action, source| WriteError { path: path.to_owned(), action, source };
-        fs::create_dir_all(path).map_err(|source| failed("create the folder", source))?;
-        let mut options = OpenOptions::new();
         let file = options.create(true).write(true).truncate(false).open(path.join(LOCK));
         let file = file.map_err(|source| failed("write into the folder", source))?;
         match file.try_lock() {

@@ -46,6 +46,7 @@ pub mod fault;
 pub mod folder;
 pub mod json;
 pub mod measured;
+pub mod private;
 pub mod run;
 
 pub use error::{FileError, Problem, WriteError};
