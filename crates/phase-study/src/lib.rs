@@ -63,6 +63,8 @@ pub mod config;
 pub mod design;
 pub mod export;
 pub mod forms;
+#[cfg(feature = "store")]
+mod places;
 pub mod question;
 pub mod record;
 #[cfg(feature = "store")]

@@ -152,29 +152,3 @@ impl CatchTrial {
         })
     }
 }
-
-/// Number of raters of each stimulus, by its index: those that count, and those that gave a sign since
-/// `since` and may yet. Also how many such raters there are who have trials.
-#[must_use]
-pub fn load(config: &StudyConfig, raters: &[Rater], since: Millis) -> (Vec<u32>, u32) {
-    let indices: BTreeMap<&str, usize> =
-        config.stimuli.iter().enumerate().map(|(k, stimulus)| (stimulus.id.as_str(), k)).collect();
-    let mut load = vec![0; config.stimuli.len()];
-    let mut count = 0;
-    for rater in raters.iter().filter(|rater| !rater.trials.is_empty()) {
-        let holds = match rater.standing(config) {
-            Standing::Complete => true,
-            Standing::Unfinished => rater.last_seen() >= since,
-            Standing::Failed | Standing::Declined | Standing::Withdrawn => false,
-        };
-        if holds {
-            count += 1;
-            for trial in &rater.trials {
-                if let Some(&k) = indices.get(trial.shown.as_str()) {
-                    load[k] += 1;
-                }
-            }
-        }
-    }
-    (load, count)
-}

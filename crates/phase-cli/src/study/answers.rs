@@ -1,32 +1,69 @@
-//! `study export` and `study report`.
+//! `study export`, `study report` and `study backup`.
 
 use super::{
     check::read,
-    options::{ExportStudy, ReportStudy},
+    options::{BackupStudy, ExportStudy, ReportStudy},
 };
-use crate::error::CliError;
-use phase_files::{WriteError, atomic};
+use crate::{console::print_message, error::CliError};
+use phase_files::{WriteError, atomic, private};
 use phase_study::{
     analysis::{Analysis, document},
     config::StudyConfig,
     export::{psych_ds, ratings},
     record::Rater,
-    store::Store,
+    store::{Answers, backup as copy},
 };
 use serde_json::json;
-use std::{fs, path::Path};
+use std::{
+    fs::{self, File},
+    path::Path,
+};
 
 /// The raters of a study.
 fn raters(config: &StudyConfig, answers: &Path) -> Result<Vec<Rater>, CliError> {
-    let mut store =
-        Store::open_existing(answers, &config.name, config.form.name()).map_err(CliError::Answers)?;
-    store.raters().map_err(CliError::Answers)
+    let read = Answers::read(answers, &config.name, config.form.name()).map_err(CliError::Answers)?;
+    if let Some(log) = read.missing_log {
+        // Also with --quiet: what follows may be wrong.
+        print_message(format!(
+            "warning: {}: answers may be missing: it was written with a log, {}, that is not there",
+            answers.display(),
+            log.display()
+        ));
+    }
+    Ok(read.raters)
 }
 
+/// Copies the answers of a study, which may be under way.
+pub(super) fn backup(arguments: &BackupStudy) -> Result<(), CliError> {
+    let (from, out) = (&arguments.answers, &arguments.out);
+    if out.exists() {
+        return Err(CliError::Usage(format!("--out: {} exists; choose another file", out.display())));
+    }
+    let failed = |action| move |source| CliError::Output(WriteError { path: out.clone(), action, source });
+    let Some(name) = out.file_name() else {
+        return Err(CliError::Usage(format!("--out: {} is not a file", out.display())));
+    };
+    // Under its name it is whole.
+    let part = out.with_file_name(format!(".{}.{}.part", name.to_string_lossy(), std::process::id()));
+    private::options().write(true).create_new(true).open(&part).map_err(failed("write"))?;
+    let copied = copy(from, &part).map_err(CliError::Answers).and_then(|()| {
+        File::open(&part).and_then(|file| file.sync_all()).map_err(failed("write"))?;
+        fs::rename(&part, out).map_err(failed("name"))
+    });
+    if copied.is_err() {
+        // What cannot be removed is harmless, and the first error tells more.
+        let _ = fs::remove_file(&part);
+    }
+    copied?;
+    let text = format!("{}: a copy of {}", out.display(), from.display());
+    arguments.output.print(text, &json!({ "file": out, "answers": from }))
+}
+
+/// Creates a folder for what raters said.
 fn folder(path: &Path) -> Result<(), CliError> {
     let failed =
         |source| CliError::Output(WriteError { path: path.to_owned(), action: "create the folder", source });
-    fs::create_dir_all(path).map_err(failed)
+    private::create_folder(path).map_err(failed)
 }
 
 pub(super) fn export(arguments: &ExportStudy) -> Result<(), CliError> {
@@ -41,7 +78,7 @@ pub(super) fn export(arguments: &ExportStudy) -> Result<(), CliError> {
     let files = psych_ds(&config, &forms, &raters, arguments.external_ids);
     folder(&out.join("data"))?;
     for file in &files {
-        atomic::write(&out.join(&file.path), file.text.as_bytes()).map_err(CliError::Output)?;
+        atomic::write_private(&out.join(&file.path), file.text.as_bytes()).map_err(CliError::Output)?;
     }
     // Psych-DS has a folder for what was made of the data.
     let file = out.join("products/ratings.json");

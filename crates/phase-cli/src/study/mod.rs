@@ -24,6 +24,7 @@ pub fn run(arguments: &Study, context: &Context) -> Result<(), CliError> {
         Study::Check(options) => check::run(options, context),
         Study::Export(options) => answers::export(options),
         Study::Report(options) => answers::report(options),
+        Study::Backup(options) => answers::backup(options),
     }
 }
 

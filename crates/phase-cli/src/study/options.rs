@@ -18,6 +18,8 @@ pub enum Study {
     Export(ExportStudy),
     /// Analyse the answers of a study: agreement, accuracies, human-likeness, interactions
     Report(ReportStudy),
+    /// Copy the answers of a study, at any time
+    Backup(BackupStudy),
 }
 
 /// Options of `study new`.
@@ -98,6 +100,20 @@ pub struct ReportStudy {
     pub answers: PathBuf,
     /// Folder for the report
     #[arg(long, value_name = "DIR")]
+    pub out: PathBuf,
+    /// Form in which the result is printed.
+    #[command(flatten)]
+    pub output: Output,
+}
+
+/// Options of `study backup`.
+#[derive(Args, Debug)]
+pub struct BackupStudy {
+    /// The file with the answers (.sqlite), as the server keeps it
+    #[arg(value_name = "FILE")]
+    pub answers: PathBuf,
+    /// File for the copy; it must not exist
+    #[arg(long, value_name = "FILE")]
     pub out: PathBuf,
     /// Form in which the result is printed.
     #[command(flatten)]

@@ -68,7 +68,7 @@ async fn page(State(app): State<Arc<App>>, Path(study): Path<String>) -> Result<
     Ok(([(header::CONTENT_TYPE, kind)], Bytes::from_static(phase_web::STUDY_PAGE)).into_response())
 }
 
-/// Lets a rater in: `{"parameters": {name: value…}}`; answers with `token`, `resumed` and `stage`.
+/// Lets a rater in: `{"parameters": {name: value…}}`; answers with `token` and `stage`.
 async fn join(
     State(app): State<Arc<App>>,
     Path(study): Path<String>,
@@ -86,7 +86,7 @@ async fn join(
     let parameters = parameters(&document).map_err(|error| ApiError::bad(error.to_string()))?;
     let token = new_token()?;
     let joined = running.with(move |study| study.join(&parameters, now(), token)).await?;
-    Ok(Json(json!({ "token": joined.token, "resumed": joined.resumed, "stage": joined.stage })))
+    Ok(Json(json!({ "token": joined.token, "stage": joined.stage })))
 }
 
 fn parameters(document: &Value) -> Result<BTreeMap<String, String>, phase_model::json::FieldError> {

@@ -6,6 +6,7 @@ mod video;
 
 use crate::error::{ApiError, ServeError};
 use axum::{Router, routing::get};
+use phase_files::{WriteError, private};
 use phase_study::{
     config::StudyConfig,
     forms::Forms,
@@ -47,6 +48,11 @@ pub(crate) struct Studies(BTreeMap<String, Arc<Running>>);
 impl Studies {
     /// Opens studies with their answers in a folder. All of their videos must be there.
     pub(crate) fn open(configurations: &[PathBuf], folder: &Path) -> Result<Self, ServeError> {
+        if !configurations.is_empty() {
+            let failed =
+                |source| WriteError { path: folder.to_owned(), action: "prepare the folder", source };
+            private::take_folder(folder).map_err(failed)?;
+        }
         let mut studies = BTreeMap::new();
         for file in configurations {
             let running = Running::open(file, folder)?;
@@ -81,8 +87,10 @@ impl Running {
         if let Some((_, video)) = config.videos().find(|(_, video)| !base.join(video).is_file()) {
             return Err(wrong(format!("there is no video {}", base.join(video).display())));
         }
-        fs::create_dir_all(folder).map_err(|source| ServeError::Read { path: folder.to_owned(), source })?;
         let path = folder.join(format!("{}.sqlite", config.name));
+        // What the database makes beside it has the same rights.
+        let made = private::options().append(true).create(true).open(&path);
+        made.map_err(|source| WriteError { path: path.clone(), action: "create", source })?;
         let store = Store::open(&path, &config.name, config.form.name())?;
         let name = config.name.clone();
         let title = config.title.clone();

@@ -47,7 +47,13 @@ fn a_rater_takes_part() {
         Some(&json!({"parameters": {"PROLIFIC_PID": "p1"}})),
     )
     .json();
-    assert_eq!((&again["resumed"], &again["stage"]["page"]), (&json!(true), &json!("done")));
+    // The id of a panel opens nothing: whoever writes it into an address is somebody new.
+    let stranger = again["token"].as_str().expect("a token");
+    assert_eq!(again["stage"]["page"], "consent");
+    let refused = ask(address, "POST", "/study/pilot/api/withdraw", Some(stranger), Some(&json!({})));
+    assert_eq!(refused.status, 409);
+    let still = ask(address, "GET", "/study/pilot/api/state", Some(&token), None);
+    assert_eq!(still.json(), stage);
     assert_eq!(step(address, &token, "withdraw", &json!({})), json!({"page": "withdrawn"}));
 }
 

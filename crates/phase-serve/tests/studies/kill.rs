@@ -1,7 +1,7 @@
 //! A server that is killed while raters answer, and how many answers a second it takes.
 
 use crate::support::{answer, ask, begin, bind, try_ask, write_study};
-use phase_study::{config::StudyConfig, forms::Forms, question::Given, store::Store};
+use phase_study::{config::StudyConfig, forms::Forms, question::Given, store::Answers};
 use serde_json::Value;
 use std::{
     collections::BTreeMap,
@@ -123,8 +123,7 @@ fn no_acknowledged_answer_is_lost_when_the_server_is_killed() {
 fn check(config: &Path, answers: &Path, acknowledged: &[Mutex<u64>]) {
     let forms = Forms::included().expect("forms");
     let config = StudyConfig::read(&fs::read(config).expect("bytes"), &forms).expect("valid");
-    let mut store = Store::open_existing(answers, &config.name, config.form.name()).expect("a store");
-    let raters = store.raters().expect("raters");
+    let raters = Answers::read(answers, &config.name, config.form.name()).expect("answers").raters;
     let by_id: BTreeMap<&str, _> =
         raters.iter().map(|rater| (rater.parameters["PROLIFIC_PID"].as_str(), rater)).collect();
     for (k, count) in acknowledged.iter().enumerate() {

@@ -45,6 +45,14 @@ pub enum StoreProblem {
         /// The damage, in a clause.
         what: String,
     },
+    /// It is not whole.
+    #[error(
+        "is damaged, as a copy made while somebody answered may be; `phase study backup` copies it whole"
+    )]
+    Torn,
+    /// It cannot be read.
+    #[error("cannot be used: {0}")]
+    Unreadable(#[source] std::io::Error),
     /// The database fails, for example because the disk is full.
     #[error("the database fails: {0}")]
     Database(#[source] rusqlite::Error),
@@ -54,6 +62,7 @@ impl From<rusqlite::Error> for StoreProblem {
     fn from(error: rusqlite::Error) -> Self {
         match error.sqlite_error_code() {
             Some(rusqlite::ErrorCode::NotADatabase) => Self::Foreign,
+            Some(rusqlite::ErrorCode::DatabaseCorrupt) => Self::Torn,
             _ => Self::Database(error),
         }
     }

@@ -1,13 +1,16 @@
 //! Answers in one SQLite file.
 //!
 //! Tables are only added to: no row is ever changed, and none is removed unless a rater leaves; triggers of
-//! the database see to it. An operation is one transaction, which is on the disk when it is acknowledged
-//! (`journal_mode=WAL`, `synchronous=FULL`).
+//! the database see to it. An operation is one transaction, which is in the file and on the disk when it is
+//! acknowledged (`journal_mode=DELETE`, `synchronous=EXTRA`): a copy of the file has all answers. A
+//! write-ahead log would be faster, and a copy without it empty.
 
 mod error;
+mod file;
 mod read;
 
 pub use error::{StoreError, StoreProblem};
+pub use file::{Answers, backup};
 
 use crate::{
     question::Responses,
@@ -27,8 +30,6 @@ pub(crate) const SCHEMA_VERSION: i32 = 1;
 /// Time for which a transaction waits for another program's.
 const PATIENCE: Duration = Duration::from_secs(10);
 
-const CHECKPOINT: &str = "PRAGMA wal_checkpoint(TRUNCATE)";
-
 const SCHEMA: &str = "
 CREATE TABLE study (name TEXT NOT NULL, form TEXT NOT NULL) STRICT;
 CREATE TABLE rater (number INTEGER PRIMARY KEY AUTOINCREMENT, joined INTEGER NOT NULL) STRICT;
@@ -42,6 +43,12 @@ CREATE TABLE answer (rater INTEGER NOT NULL, number INTEGER NOT NULL, at INTEGER
     response_time INTEGER NOT NULL, plays INTEGER NOT NULL, PRIMARY KEY (rater, number),
     FOREIGN KEY (rater, number) REFERENCES trial) STRICT, WITHOUT ROWID;
 CREATE TABLE departure (rater INTEGER PRIMARY KEY REFERENCES rater, at INTEGER NOT NULL, kind TEXT NOT NULL) STRICT;
+";
+
+/// What only the server knows of a study; files of earlier versions have none.
+const SECRET: &str = "
+CREATE TABLE IF NOT EXISTS secret (bytes BLOB NOT NULL) STRICT;
+INSERT INTO secret SELECT randomblob(16) WHERE NOT EXISTS (SELECT 1 FROM secret);
 ";
 
 /// All tables; no row of them is ever changed.
@@ -104,26 +111,6 @@ impl Store {
         let flags = OpenFlags::SQLITE_OPEN_READ_WRITE
             | OpenFlags::SQLITE_OPEN_CREATE
             | OpenFlags::SQLITE_OPEN_NO_MUTEX;
-        Self::with_flags(path, name, form, flags)
-    }
-
-    /// Opens the answers of a study, which must exist.
-    ///
-    /// # Errors
-    /// As [`Store::open`], and [`StoreProblem::Absent`].
-    pub fn open_existing(path: &Path, name: &str, form: &str) -> Result<Self, StoreError> {
-        if !path.is_file() {
-            return Err(StoreError { file: path.to_owned(), problem: StoreProblem::Absent });
-        }
-        Self::with_flags(
-            path,
-            name,
-            form,
-            OpenFlags::SQLITE_OPEN_READ_WRITE | OpenFlags::SQLITE_OPEN_NO_MUTEX,
-        )
-    }
-
-    fn with_flags(path: &Path, name: &str, form: &str, flags: OpenFlags) -> Result<Self, StoreError> {
         let failed = |problem| StoreError { file: path.to_owned(), problem };
         let connection = Connection::open_with_flags(path, flags).map_err(|error| failed(error.into()))?;
         let mut store = Self { connection, path: path.to_owned() };
@@ -134,36 +121,27 @@ impl Store {
     fn prepare(&mut self, name: &str, form: &str) -> Result<(), StoreProblem> {
         self.connection.busy_timeout(PATIENCE)?;
         let transaction = self.connection.transaction_with_behavior(TransactionBehavior::Immediate)?;
-        let number = |pragma: &str| transaction.pragma_query_value(None, pragma, |row| row.get::<_, i32>(0));
-        let application = number("application_id")?;
-        let version = number("user_version")?;
-        let tables: i64 =
-            transaction.query_row("SELECT count(*) FROM sqlite_schema", [], |row| row.get(0))?;
-        if (application, version, tables) == (0, 0, 0) {
+        if is_new(&transaction)? {
             transaction.execute_batch(SCHEMA)?;
             transaction.execute_batch(&triggers())?;
             transaction.execute("INSERT INTO study (name, form) VALUES (?1, ?2)", [name, form])?;
             transaction.pragma_update(None, "application_id", APPLICATION)?;
             transaction.pragma_update(None, "user_version", SCHEMA_VERSION)?;
-        } else if application != APPLICATION {
-            return Err(StoreProblem::Foreign);
-        } else if version != SCHEMA_VERSION {
-            return Err(StoreProblem::Version { found: version });
         }
-        let found: (String, String) = transaction
-            .query_row("SELECT name, form FROM study", [], |row| Ok((row.get(0)?, row.get(1)?)))?;
-        if (found.0.as_str(), found.1.as_str()) != (name, form) {
-            let (name, form) = found;
-            return Err(StoreProblem::OtherStudy { name, form });
-        }
+        identify(&transaction, name, form)?;
+        transaction.execute_batch(SECRET)?;
         transaction.commit()?;
-        self.connection.pragma_update(None, "journal_mode", "WAL")?;
-        self.connection.pragma_update(None, "synchronous", "FULL")?;
+        self.connection.pragma_update(None, "journal_mode", "DELETE")?;
+        self.connection.pragma_update(None, "synchronous", "EXTRA")?;
         self.connection.pragma_update(None, "foreign_keys", true)?;
         self.connection.pragma_update(None, "secure_delete", true)?;
-        // What could not be removed when somebody withdrew, since another program was reading.
-        self.connection.query_row(CHECKPOINT, [], |_| Ok(()))?;
         Ok(())
+    }
+
+    /// Random bytes that were drawn when the file was made.
+    pub(crate) fn secret(&self) -> Result<Vec<u8>, StoreError> {
+        let read = self.connection.query_row("SELECT bytes FROM secret", [], |row| row.get(0));
+        read.map_err(|error| StoreError::of(&self.path, error))
     }
 
     /// All raters in the order in which they came.
@@ -186,12 +164,34 @@ impl Store {
         writing.transaction.commit().map_err(|error| StoreError::of(&self.path, error))?;
         Ok(result)
     }
+}
 
-    /// Removes what was deleted from the file beside the database, too; where another program is reading, at
-    /// the next occasion.
-    pub(crate) fn forget(&mut self) -> Result<(), StoreError> {
-        let done = self.connection.query_row(CHECKPOINT, [], |_| Ok(()));
-        done.map_err(|error| StoreError::of(&self.path, error))
+/// Whether a database has nothing in it.
+fn is_new(connection: &Connection) -> Result<bool, StoreProblem> {
+    let tables: i64 = connection.query_row("SELECT count(*) FROM sqlite_schema", [], |row| row.get(0))?;
+    Ok((number(connection, "application_id")?, number(connection, "user_version")?, tables) == (0, 0, 0))
+}
+
+fn number(connection: &Connection, pragma: &str) -> Result<i32, StoreProblem> {
+    Ok(connection.pragma_query_value(None, pragma, |row| row.get(0))?)
+}
+
+/// Checks that a database has the answers of a study of this name and form.
+fn identify(connection: &Connection, name: &str, form: &str) -> Result<(), StoreProblem> {
+    let version = number(connection, "user_version")?;
+    if number(connection, "application_id")? != APPLICATION {
+        return Err(StoreProblem::Foreign);
+    }
+    if version != SCHEMA_VERSION {
+        return Err(StoreProblem::Version { found: version });
+    }
+    let found: (String, String) =
+        connection.query_row("SELECT name, form FROM study", [], |row| Ok((row.get(0)?, row.get(1)?)))?;
+    if (found.0.as_str(), found.1.as_str()) == (name, form) {
+        Ok(())
+    } else {
+        let (name, form) = found;
+        Err(StoreProblem::OtherStudy { name, form })
     }
 }
 
@@ -212,11 +212,11 @@ impl Writing<'_> {
         done.map(|_| ()).map_err(|error| self.failed(error))
     }
 
-    /// Adds a rater with what it came with, and returns its number.
+    /// Adds a rater with what it came with, and returns its number. The column `identity` stays empty: what
+    /// one comes with does not say who one is.
     pub(crate) fn add_rater(
         &self,
         joined: Millis,
-        identity: Option<&str>,
         parameters: &BTreeMap<String, String>,
     ) -> Result<u64, StoreError> {
         self.execute("INSERT INTO rater (joined) VALUES (?1)", [joined])?;
@@ -224,8 +224,8 @@ impl Writing<'_> {
         let text = serde_json::Value::from_iter(
             parameters.iter().map(|(name, value)| (name.clone(), value.clone())),
         );
-        let sql = "INSERT INTO origin (rater, identity, parameters) VALUES (?1, ?2, ?3)";
-        self.execute(sql, params![number, identity, text.to_string()])?;
+        let sql = "INSERT INTO origin (rater, parameters) VALUES (?1, ?2)";
+        self.execute(sql, params![number, text.to_string()])?;
         Ok(number.unsigned_abs())
     }
 
@@ -289,10 +289,10 @@ mod tests {
             |pragma| store.connection.pragma_query_value(None, pragma, |row| row.get::<_, i64>(0)).unwrap();
         let mode: String =
             store.connection.pragma_query_value(None, "journal_mode", |row| row.get(0)).unwrap();
-        // https://www.sqlite.org/pragma.html#pragma_synchronous: 2 is FULL.
+        // https://www.sqlite.org/pragma.html#pragma_synchronous: 3 is EXTRA.
         assert_eq!(
             (mode.as_str(), number("synchronous"), number("foreign_keys"), number("secure_delete")),
-            ("wal", 2, 1, 1)
+            ("delete", 3, 1, 1)
         );
     }
 }

@@ -28,11 +28,6 @@ impl Writing<'_> {
         self.number("SELECT rater FROM token WHERE digest = ?1", [digest])
     }
 
-    /// The rater with this identity.
-    pub(crate) fn rater_named(&self, identity: &str) -> Result<Option<u64>, StoreError> {
-        self.number("SELECT rater FROM origin WHERE identity = ?1", [identity])
-    }
-
     fn number(&self, sql: &str, values: impl rusqlite::Params) -> Result<Option<u64>, StoreError> {
         let found = self
             .transaction

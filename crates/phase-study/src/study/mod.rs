@@ -1,8 +1,10 @@
 //! A study that is under way: what each rater sees next, and what it answers.
 
 mod error;
+mod names;
 mod stage;
 mod token;
+mod waiting;
 
 pub use error::StudyError;
 pub use stage::{Stage, TrialPage};
@@ -12,15 +14,17 @@ use crate::{
     assignment::{Shown, assign},
     config::StudyConfig,
     forms::Forms,
+    places::Places,
     question::{Question, Responses},
-    record::{Departure, GivenAnswer, Millis, Rater, load},
+    record::{Departure, GivenAnswer, Millis, Rater},
     store::{Page, Store, Writing},
 };
+use names::Names;
 use phase_model::json::{Field, FieldError};
 use serde::Serialize;
 use serde_json::Value;
-use sha2::{Digest, Sha256};
 use std::collections::BTreeMap;
+use waiting::Waiting;
 
 /// Longest value of a member of the address that is kept (letters).
 const LONGEST_PARAMETER: usize = 200;
@@ -34,8 +38,6 @@ const MOST_PLAYS: i64 = 10_000;
 pub struct Joined {
     /// The rater's token, with which it shows who it is.
     pub token: Token,
-    /// Whether the rater had come before.
-    pub resumed: bool,
     /// The first thing that the rater sees.
     pub stage: Stage,
 }
@@ -45,9 +47,13 @@ pub struct Joined {
 struct Given<'a> {
     config: &'a StudyConfig,
     forms: &'a Forms,
+    names: &'a Names,
 }
 
 /// A study with its answers: the state machine that raters go through.
+///
+/// Somebody who comes is known by a random token, and nothing else: the id of a panel in the address is data.
+/// It is a rater once it has agreed or refused; before that nothing of it is stored.
 ///
 /// A rater comes ([`Study::join`]), agrees, says something of itself, reads the instructions and answers its
 /// trials, in this order. Each method takes one of these steps for the rater with a token and returns the
@@ -58,6 +64,9 @@ pub struct Study {
     config: StudyConfig,
     forms: Forms,
     store: Store,
+    places: Places,
+    waiting: Waiting,
+    names: Names,
     /// By their names in addresses the ids and files of all videos.
     videos: BTreeMap<String, (String, String)>,
 }
@@ -69,7 +78,8 @@ impl Study {
     /// [`StudyError::Unknown`] if somebody is to see a video that the configuration does not have;
     /// [`StudyError::Store`].
     pub fn new(config: StudyConfig, forms: Forms, mut store: Store) -> Result<Self, StudyError> {
-        for rater in store.raters()? {
+        let raters = store.raters()?;
+        for rater in &raters {
             for trial in &rater.trials {
                 let known = if trial.catch {
                     config.catch_trial(&trial.shown).is_some()
@@ -81,9 +91,17 @@ impl Study {
                 }
             }
         }
-        let videos =
-            config.videos().map(|(id, file)| (address(config.seed, id), (id.to_owned(), file.to_owned())));
-        Ok(Self { videos: videos.collect(), config, forms, store })
+        let names = Names::new(store.secret()?);
+        let videos = config.videos().map(|(id, file)| (names.of(id), (id.to_owned(), file.to_owned())));
+        Ok(Self {
+            videos: videos.collect(),
+            places: Places::new(&config, &raters),
+            waiting: Waiting::default(),
+            names,
+            config,
+            forms,
+            store,
+        })
     }
 
     /// The configuration.
@@ -101,7 +119,7 @@ impl Study {
     }
 
     /// The file of a video, relative to that of the configuration, by its name in addresses. Names tell
-    /// nothing of the video.
+    /// nothing of the video, and nobody can guess them.
     #[must_use]
     pub fn video(&self, name: &str) -> Option<&str> {
         self.videos.get(name).map(|(_, file)| file.as_str())
@@ -112,13 +130,11 @@ impl Study {
         self.videos.iter().map(|(name, (_, file))| (name.as_str(), file.as_str()))
     }
 
-    /// Lets a rater in. `parameters` are the members of the address with which it came; those that the study
-    /// does not keep are ignored. One who has come before with the same identity goes on where it was. It is
-    /// known by `token` from then on.
+    /// Lets somebody in. `parameters` are the members of the address with which it came; those that the study
+    /// does not keep are ignored. It is known by `token` from then on, and nothing is stored before it agrees.
     ///
     /// # Errors
-    /// [`StudyError::Field`] if a member of the address is missing, too long or not a line of text;
-    /// [`StudyError::Store`].
+    /// [`StudyError::Field`] if a member of the address is missing, too long or not a line of text.
     pub fn join(
         &mut self,
         parameters: &BTreeMap<String, String>,
@@ -126,22 +142,18 @@ impl Study {
         token: Token,
     ) -> Result<Joined, StudyError> {
         let kept = self.kept(parameters)?;
-        let identity = self.config.parameters.first().and_then(|name| kept.get(name)).map(String::as_str);
-        let config = &self.config;
-        let forms = &self.forms;
-        self.store.write(|store| {
-            let known = identity.map(|identity| store.rater_named(identity)).transpose()?.flatten();
-            if known.is_none() && is_full(config, store, now)? {
-                return Ok(Joined { token, resumed: false, stage: Stage::Full });
-            }
-            let number = match known {
-                Some(number) => number,
-                None => store.add_rater(now, identity, &kept)?,
-            };
-            store.add_token(number, &token.digest())?;
-            let stage = stage::of(config, forms, &store.rater(number)?);
-            Ok(Joined { token, resumed: known.is_some(), stage })
-        })
+        if self.is_full(now) {
+            return Ok(Joined { token, stage: Stage::Full });
+        }
+        self.waiting.add(token.digest(), now, kept);
+        Ok(Joined { token, stage: stage::consent(&self.config) })
+    }
+
+    /// Whether nobody can be let in.
+    fn is_full(&self, now: Millis) -> bool {
+        let (load, holding) = self.places.load(earliest(&self.config, now));
+        let most = self.config.raters_per_video_at_most;
+        holding >= self.config.raters || load.iter().all(|&raters| raters >= most)
     }
 
     fn kept(&self, parameters: &BTreeMap<String, String>) -> Result<BTreeMap<String, String>, StudyError> {
@@ -167,42 +179,60 @@ impl Study {
     /// # Errors
     /// [`StudyError::Token`], [`StudyError::Store`].
     pub fn stage(&mut self, token: &Token) -> Result<Stage, StudyError> {
-        self.step(token, |_, _, _| Ok(()))
+        if self.waiting.get(&token.digest()).is_some() {
+            return Ok(stage::consent(&self.config));
+        }
+        self.step(token, "state", |_, _, _| Ok(()))
     }
 
-    /// Takes a rater's agreement, with which it gets its trials; or its refusal, after which nothing of it is
+    /// Takes a rater's agreement, with which it gets its trials; or its refusal, of which only the fact is
     /// kept.
     ///
     /// # Errors
     /// [`StudyError::NotNow`] if the rater is past that; [`StudyError::Token`], [`StudyError::Store`].
     pub fn consent(&mut self, token: &Token, agrees: bool, now: Millis) -> Result<Stage, StudyError> {
-        self.step(token, |Given { config, .. }, store, rater| {
+        let digest = token.digest();
+        let waiting = self.waiting.get(&digest);
+        let full = self.is_full(now);
+        let (load, _) = self.places.load(earliest(&self.config, now));
+        let Self { config, forms, names, store, .. } = self;
+        let done = store.write(|store| {
+            let number = match (store.rater_of(&digest)?, waiting) {
+                (Some(number), _) => number,
+                // Where no place is left, nothing is stored: it may come again.
+                (None, Some(_)) if agrees && full => return Ok(None),
+                (None, Some((joined, parameters))) => {
+                    let number = store.add_rater(*joined, parameters)?;
+                    store.add_token(number, &digest)?;
+                    number
+                }
+                (None, None) => return Err(StudyError::Token),
+            };
+            let rater = store.rater(number)?;
             if rater.departure.is_some() || rater.consented.is_some() {
-                let same = rater.departure.is_none() == agrees;
-                return if same { Ok(()) } else { Err(StudyError::NotNow("consent")) };
+                if rater.departure.is_none() != agrees {
+                    return Err(StudyError::NotNow("consent"));
+                }
+            } else if agrees {
+                let Some(trials) = assign(config, &load, number).filter(|_| !full) else { return Ok(None) };
+                let trials: Vec<(&str, bool)> = trials
+                    .iter()
+                    .map(|shown| match *shown {
+                        Shown::Stimulus(k) => (config.stimuli[k].id.as_str(), false),
+                        Shown::CatchTrial(k) => (config.catch_trials[k].id.as_str(), true),
+                    })
+                    .collect();
+                store.add_page(number, Page::Consent, now, None)?;
+                store.add_trials(number, &trials)?;
+            } else {
+                store.depart(number, now, Departure::Declined)?;
             }
-            if !agrees {
-                return Ok(store.depart(rater.number, now, Departure::Declined)?);
-            }
-            let raters = store.raters()?;
-            let (load, holding) = load(config, &raters, earliest(config, now));
-            let trials = (holding < config.raters).then(|| assign(config, &load, rater.number)).flatten();
-            // Where no place is left, nothing is stored: it may come again.
-            let Some(trials) = trials else { return Ok(()) };
-            let trials: Vec<(&str, bool)> = trials
-                .iter()
-                .map(|shown| match *shown {
-                    Shown::Stimulus(k) => (config.stimuli[k].id.as_str(), false),
-                    Shown::CatchTrial(k) => (config.catch_trials[k].id.as_str(), true),
-                })
-                .collect();
-            store.add_page(rater.number, Page::Consent, now, None)?;
-            Ok(store.add_trials(rater.number, &trials)?)
-        })
-        .map(|stage| match stage {
-            Stage::Consent { .. } if agrees => Stage::Full,
-            stage => stage,
-        })
+            Ok(Some(store.rater(number)?))
+        })?;
+        let Some(rater) = done else { return Ok(Stage::Full) };
+        self.waiting.remove(&digest);
+        self.places.update(&self.config, &rater);
+        Ok(stage::of(Given { config: &self.config, forms, names }, &rater))
     }
 
     /// Takes what a rater says of itself, an object with a member for each question.
@@ -211,7 +241,7 @@ impl Study {
     /// [`StudyError::Field`], [`StudyError::NotNow`], [`StudyError::OtherAnswer`] if it has said something
     /// else before; [`StudyError::Token`], [`StudyError::Store`].
     pub fn demographics(&mut self, token: &Token, answer: &Value, now: Millis) -> Result<Stage, StudyError> {
-        self.step(token, |Given { config, .. }, store, rater| {
+        self.step(token, "demographics", |Given { config, .. }, store, rater| {
             if rater.consented.is_none() || config.demographics.is_empty() {
                 return Err(StudyError::NotNow("demographics"));
             }
@@ -229,7 +259,7 @@ impl Study {
     /// # Errors
     /// [`StudyError::NotNow`], [`StudyError::Token`], [`StudyError::Store`].
     pub fn instructed(&mut self, token: &Token, now: Millis) -> Result<Stage, StudyError> {
-        self.step(token, |Given { config, .. }, store, rater| {
+        self.step(token, "instructions", |Given { config, .. }, store, rater| {
             let asked = !config.demographics.is_empty() && rater.demographics.is_none();
             match (rater.instructed, rater.consented) {
                 (Some(_), _) => Ok(()),
@@ -250,7 +280,7 @@ impl Study {
     /// [`StudyError::OtherAnswer`] for one that has another answer; [`StudyError::Token`],
     /// [`StudyError::Store`].
     pub fn answer(&mut self, token: &Token, submission: &Value, now: Millis) -> Result<Stage, StudyError> {
-        self.step(token, |Given { config, forms }, store, rater| {
+        self.step(token, "trial", |Given { config, forms, .. }, store, rater| {
             let root = Field::root(submission);
             root.only(&["trial", "answer", "response_time", "plays"])?;
             let number = root.required("trial")?.whole(1, i64::from(u32::MAX))?;
@@ -279,39 +309,39 @@ impl Study {
     /// # Errors
     /// [`StudyError::Token`], [`StudyError::Store`].
     pub fn withdraw(&mut self, token: &Token, now: Millis) -> Result<Stage, StudyError> {
-        let stage = self.step(token, |_, store, rater| match rater.departure {
+        self.step(token, "withdraw", |_, store, rater| match rater.departure {
             Some(_) => Ok(()),
             None => Ok(store.depart(rater.number, now, Departure::Withdrew)?),
-        })?;
-        self.store.forget()?;
-        Ok(stage)
+        })
     }
 
-    /// Does something for a rater, and returns what it sees then.
+    /// Does something for a rater at a page, and returns what it sees then.
     fn step(
         &mut self,
         token: &Token,
+        page: &'static str,
         action: impl FnOnce(Given<'_>, &Writing<'_>, &Rater) -> Result<(), StudyError>,
     ) -> Result<Stage, StudyError> {
-        let config = &self.config;
-        let forms = &self.forms;
-        self.store.write(|store| {
-            let number = store.rater_of(&token.digest())?.ok_or(StudyError::Token)?;
-            action(Given { config, forms }, store, &store.rater(number)?)?;
-            Ok(stage::of(config, forms, &store.rater(number)?))
-        })
+        let digest = token.digest();
+        let waits = self.waiting.get(&digest).is_some();
+        let given = Given { config: &self.config, forms: &self.forms, names: &self.names };
+        let rater = self.store.write(|store| {
+            let number = match store.rater_of(&digest)? {
+                Some(number) => number,
+                None if waits => return Err(StudyError::NotNow(page)),
+                None => return Err(StudyError::Token),
+            };
+            action(given, store, &store.rater(number)?)?;
+            Ok(store.rater(number)?)
+        })?;
+        self.places.update(&self.config, &rater);
+        Ok(stage::of(given, &rater))
     }
 }
 
 /// The moment before which a rater must have given a sign to keep its places.
 fn earliest(config: &StudyConfig, now: Millis) -> Millis {
     now.saturating_sub(i64::from(config.minutes) * 60_000)
-}
-
-/// Whether nobody can be let in.
-fn is_full(config: &StudyConfig, store: &Writing<'_>, now: Millis) -> Result<bool, StudyError> {
-    let (load, holding) = load(config, &store.raters()?, earliest(config, now));
-    Ok(holding >= config.raters || load.iter().all(|&raters| raters >= config.raters_per_video_at_most))
 }
 
 /// The questions of a trial.
@@ -322,11 +352,4 @@ fn questions(config: &StudyConfig, forms: &Forms, shown: &str, catch: bool) -> V
         config.stimulus(shown).map(|stimulus| stimulus.objects)
     };
     forms.questions(config.form, objects.unwrap_or_default())
-}
-
-/// The name of a video in addresses: 16 hexadecimal digits from its id and the seed, from which neither the
-/// event nor its source can be told.
-fn address(seed: u64, id: &str) -> String {
-    let digest = Sha256::new().chain_update(seed.to_le_bytes()).chain_update(id).finalize();
-    digest.iter().take(8).map(|byte| format!("{byte:02x}")).collect()
 }

@@ -1,9 +1,8 @@
 //! Stages: everything that a rater's page shows, one after the other.
 
-use super::{address, questions};
+use super::{Given, questions};
 use crate::{
     config::StudyConfig,
-    forms::Forms,
     question::Question,
     record::{Departure, Rater},
 };
@@ -65,19 +64,25 @@ pub struct TrialPage {
     pub questions: Vec<Question>,
 }
 
+/// The first stage.
+pub(super) fn consent(config: &StudyConfig) -> Stage {
+    Stage::Consent {
+        title: config.title.clone(),
+        introduction: config.introduction.clone(),
+        consent: config.consent.clone(),
+    }
+}
+
 /// The stage at which a rater is.
-pub(super) fn of(config: &StudyConfig, forms: &Forms, rater: &Rater) -> Stage {
+pub(super) fn of(given: Given<'_>, rater: &Rater) -> Stage {
+    let Given { config, forms, names } = given;
     match rater.departure {
         Some(Departure::Declined) => return Stage::Declined,
         Some(Departure::Withdrew) => return Stage::Withdrawn,
         None => {}
     }
     if rater.consented.is_none() {
-        return Stage::Consent {
-            title: config.title.clone(),
-            introduction: config.introduction.clone(),
-            consent: config.consent.clone(),
-        };
+        return consent(config);
     }
     if rater.demographics.is_none() && !config.demographics.is_empty() {
         return Stage::Demographics { questions: config.demographics.clone() };
@@ -92,7 +97,7 @@ pub(super) fn of(config: &StudyConfig, forms: &Forms, rater: &Rater) -> Stage {
     Stage::Trial(TrialPage {
         trial: k + 1,
         trials: rater.trials.len(),
-        video: format!("videos/{}.mp4", address(config.seed, &trial.shown)),
+        video: format!("videos/{}.mp4", names.of(&trial.shown)),
         questions: questions(config, forms, &trial.shown, trial.catch),
     })
 }

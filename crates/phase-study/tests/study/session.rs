@@ -1,11 +1,13 @@
 //! The way of a rater through a study.
 
 use crate::support::{
-    begin, complete, document, open, parameters, random, some_answer, submission, token_of,
+    begin, complete, document, forms, open, parameters, random, read, some_answer, submission, token_of,
 };
+use phase_model::json::Field;
 use phase_study::{
     forms::Form,
-    record::Standing,
+    question::Responses,
+    record::{GivenAnswer, Standing, Trial},
     study::{Stage, StudyError, Token},
 };
 use proptest::prelude::*;
@@ -37,7 +39,10 @@ fn a_rater_goes_from_consent_to_the_code() {
         let folder = tempfile::tempdir().expect("a folder");
         let mut study = open(folder.path(), &with_everything(form));
         let joined = study.join(&parameters("p1"), 0, token_of(1)).expect("let in");
-        assert!(!joined.resumed && matches!(joined.stage, Stage::Consent { .. }));
+        assert!(matches!(joined.stage, Stage::Consent { .. }));
+        // Who only looks is nobody yet.
+        assert!(study.raters().expect("raters").is_empty());
+        assert_eq!(study.stage(&joined.token).expect("a stage"), joined.stage);
         let token = Token::parse(&joined.token.text()).expect("a token");
         let stage = study.consent(&token, true, 1).expect("agreed");
         assert!(matches!(&stage, Stage::Demographics { questions } if questions.len() == 3));
@@ -76,10 +81,19 @@ fn a_rater_goes_from_consent_to_the_code() {
             (code.as_deref(), url.as_deref()),
             (Some("ABC123"), Some("https://example.org/done?cc=ABC123"))
         );
-        // Whoever comes again with the same id is where it was, on another device too.
+        // Whoever comes with the same id is somebody else, who sees and changes nothing of the first.
         let again = study.join(&parameters("p1"), 9, token_of(2)).expect("let in");
-        assert!(again.resumed && matches!(again.stage, Stage::Done { .. }) && again.token != token);
+        assert!(matches!(again.stage, Stage::Consent { .. }));
+        assert!(matches!(study.withdraw(&again.token, 9), Err(StudyError::NotNow(_))));
+        let answer = submission(1, json!({"relation": "neutral"}));
+        assert!(matches!(study.answer(&again.token, &answer, 9), Err(StudyError::NotNow(_))));
+        assert!(matches!(study.stage(&token).expect("a stage"), Stage::Done { .. }));
         assert_eq!(study.raters().expect("raters").len(), 1);
+        study.consent(&again.token, true, 9).expect("agreed");
+        study.withdraw(&again.token, 9).expect("withdrawn");
+        let raters = study.raters().expect("raters");
+        let answered = |k: usize| raters[k].trials.iter().filter(|trial| trial.given.is_some()).count();
+        assert_eq!((raters.len(), answered(0), answered(1)), (2, 4, 0));
     }
 }
 
@@ -130,6 +144,7 @@ fn a_refusal_leaves_nothing_and_takes_no_place() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut study = open(folder.path(), &document(Form::Relation, 2, 1, 2));
     let token = study.join(&parameters("p1"), 0, token_of(1)).expect("let in").token;
+    assert!(matches!(study.withdraw(&token, 1), Err(StudyError::NotNow(_))));
     assert_eq!(study.consent(&token, false, 1).expect("refused"), Stage::Declined);
     assert_eq!(study.consent(&token, false, 1).expect("refused"), Stage::Declined);
     assert!(matches!(study.consent(&token, true, 1), Err(StudyError::NotNow(_))));
@@ -220,7 +235,8 @@ fn members_of_the_address_are_checked() {
     let mut more = parameters("p1");
     more.insert("SESSION_ID".into(), "s".into());
     more.insert("utm_source".into(), "not kept".into());
-    study.join(&more, 0, token_of(1)).expect("let in");
+    let token = study.join(&more, 0, token_of(1)).expect("let in").token;
+    study.consent(&token, true, 0).expect("agreed");
     let kept: Vec<String> = study.raters().expect("raters")[0].parameters.keys().cloned().collect();
     assert_eq!(kept, ["PROLIFIC_PID", "SESSION_ID"]);
 }
@@ -285,4 +301,60 @@ fn nothing_that_is_sent_makes_it_panic_or_is_stored_in_part() {
         let answered = trial || study.demographics(&token, &value, 1).is_ok();
         prop_assert!(answered || study.raters().expect("raters") == before);
     });
+}
+
+/// To come costs the same, however many have come.
+#[test]
+fn nobody_waits_for_those_who_came_before() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut study = open(folder.path(), &document(Form::Relation, 200, 2000, 20));
+    let time = |study: &mut phase_study::study::Study, from: u64| {
+        let begun = std::time::Instant::now();
+        for k in from..from + 200 {
+            study.join(&parameters("p"), 0, token_of(k)).expect("let in");
+        }
+        begun.elapsed()
+    };
+    let few = time(&mut study, 0);
+    for k in 0..400 {
+        let token = study.join(&parameters("p"), 0, token_of(10_000 + k)).expect("let in").token;
+        study.consent(&token, true, 0).expect("agreed");
+    }
+    let many = time(&mut study, 1000);
+    // With every rater read anew it is some hundred times as long.
+    assert!(many < 20 * few + std::time::Duration::from_millis(50), "{few:?}, then {many:?}");
+}
+
+/// Names of videos follow from nothing that others know.
+#[test]
+fn names_of_videos_cannot_be_guessed() {
+    let names = |path: &std::path::Path| {
+        let study = open(path, &document(Form::Relation, 3, 2, 2));
+        study.addresses().map(|(name, _)| name.to_owned()).collect::<BTreeSet<_>>()
+    };
+    let [one, other] = [(); 2].map(|()| tempfile::tempdir().expect("a folder"));
+    // The same after the server has been started again, and others for the same study elsewhere.
+    let first = names(one.path());
+    assert_eq!(first, names(one.path()));
+    assert!(first.is_disjoint(&names(other.path())));
+    assert!(first.iter().all(|name| name.len() == 32));
+}
+
+/// The jsPsych plugin has the same rule; its test reads the same cases.
+#[test]
+fn catch_trials_are_passed_as_in_the_plugin() {
+    let cases = include_str!("../../../phase-web/jspsych/test/catch_trials.json");
+    let cases: Vec<Value> = serde_json::from_str(cases).expect("JSON");
+    assert!(cases.len() > 10);
+    for case in cases {
+        let form = Form::ALL.into_iter().find(|form| case["form"] == form.name()).expect("a form");
+        let mut document = document(form, 6, 2, 3);
+        document["catch_trials"] =
+            json!([{"id": "catch-0", "video": "catch.mp4", "expected": case["expected"]}]);
+        let questions = forms().questions(form, 2);
+        let answer = Responses::read(&Field::root(&case["answer"]), &questions).expect("an answer");
+        let given = GivenAnswer { at: 0, answer, response_time: 0, plays: 1 };
+        let trial = Trial { shown: "catch-0".into(), catch: true, given: Some(given) };
+        assert_eq!(trial.passed(&read(&document)), case["passed"].as_bool(), "{case}");
+    }
 }

@@ -4,7 +4,7 @@ import { readFile } from "node:fs/promises";
 import { createRequire } from "node:module";
 import { fileURLToPath } from "node:url";
 import { after, before, test } from "node:test";
-import { questions, problem, INTERACTIONS } from "@phase-events/forms";
+import { questions, passed, problem, INTERACTIONS } from "@phase-events/forms";
 import { launch, serve } from "../../tests/browser/site.mjs";
 
 const AXE = createRequire(import.meta.url).resolve("axe-core/axe.min.js");
@@ -40,6 +40,36 @@ test("forms ask what they say", () => {
     assert.notEqual(problem("relation", rubbish), null);
   }
   assert.notEqual(problem("interactions", { interactions: [] }), null);
+});
+
+test("catch trials are passed as in the study server", async () => {
+  const cases = JSON.parse(await readFile(new URL("catch_trials.json", import.meta.url), "utf8"));
+  for (const { form, expected, answer, passed: right } of cases) {
+    assert.equal(problem(form, answer), null, "an answer that the form takes");
+    assert.equal(passed(expected, answer), right, JSON.stringify({ expected, answer }));
+  }
+  assert.equal(passed({ relation: "neutral" }, {}), false);
+});
+
+test("a video that is paused can be played on", async () => {
+  const page = await browser.newPage();
+  await page.goto(`${site.address}test/experiment.html`);
+  const buttons = await page.evaluate(() => {
+    const place = document.body.appendChild(document.createElement("div"));
+    new jsPsychPhaseVideo({ finishTrial() {} }).trial(place, { video: "none.mp4", prompt: "", description: "", replays: 0, width: 100, autoplay: true, button_label: "Go on" });
+    const video = place.querySelector("video");
+    video.onerror = null;
+    const state = () => [...place.querySelectorAll("button")].map((button) => [button.textContent, button.disabled]);
+    const seen = [state()];
+    for (const event of ["play", "pause", "play"]) {
+      video.dispatchEvent(new Event(event));
+      seen.push(state());
+    }
+    return seen;
+  });
+  assert.deepEqual(buttons.map(([[text, disabled]]) => [text, disabled]), [["Play", true], ["Play", true], ["Play on", false], ["Play on", true]]);
+  assert.ok(buttons.every(([, [, disabled]]) => disabled), "one goes on once it has been watched");
+  await page.close();
 });
 
 test("a person answers everything with the keyboard", async () => {

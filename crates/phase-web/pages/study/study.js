@@ -150,10 +150,9 @@ function show(stage) {
 
 async function join() {
   const parameters = Object.fromEntries(new URLSearchParams(location.search));
-  kept.set({ token: null, pending: null });
   try {
     const joined = await ask("join", { parameters });
-    kept.set({ token: joined.token, search: location.search });
+    kept.set({ token: joined.token, search: location.search, pending: null });
     show(joined.stage);
   } catch (error) {
     put("This study cannot begin");
@@ -169,8 +168,11 @@ async function begin() {
     if (pending) await ask("answer", pending).catch((error) => { if (!(error instanceof Refused) || error.status === 401) throw error; });
     kept.set({ pending: null });
     show(await ask("state"));
-  } catch {
-    await join();
+  } catch (error) {
+    // The token is what one's answers hang on: it is given up only where the server does not know it.
+    if (error instanceof Refused && error.status === 401) return join();
+    put("This study cannot go on");
+    say(error.message);
   }
 }
 

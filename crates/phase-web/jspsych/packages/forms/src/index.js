@@ -28,6 +28,18 @@ export function problem(form, answer, options) {
 }
 
 /**
+ * Whether an answer passes a catch trial. `expected` has by question an answer or a list of them: of a question with one answer it is
+ * among those expected, of one with several all that are expected are among it. `phase study` has the same rule; test/catch_trials.json
+ * holds both to it.
+ */
+export function passed(expected, answer) {
+  return Object.entries(expected).every(([name, wanted]) => {
+    const [given, right] = [answer?.[name], [wanted].flat()];
+    return Array.isArray(given) ? right.every((choice) => given.includes(choice)) : right.includes(given);
+  });
+}
+
+/**
  * Puts a form into a container. `submitted` is called with the answer once everything is answered: `interactions` is a list, everything
  * else a string. `shuffle` changes the order of the interactions: a function from a list to a list.
  */

@@ -1,4 +1,4 @@
-import { problem, questions, render } from "@phase-events/forms";
+import { passed, problem, questions, render } from "@phase-events/forms";
 import { ParameterType } from "jspsych";
 
 const info = {
@@ -15,7 +15,10 @@ const info = {
     shuffle: { type: ParameterType.BOOL, default: true },
     /** Text above the questions, as text and not as HTML. */
     prompt: { type: ParameterType.STRING, default: "" },
-    /** The right answer of a catch trial, such as `{relation: "neutral"}`; null for a trial that has none. */
+    /**
+     * The right answer of a catch trial, such as `{relation: "neutral"}`: by question one of the right choices or a list of them, for
+     * `interactions` all that must be ticked. Null for a trial that has none.
+     */
     expected: { type: ParameterType.OBJECT, default: null },
     /** Text of the button that goes on. */
     button_label: { type: ParameterType.STRING, default: "Continue" },
@@ -29,7 +32,7 @@ const info = {
     response: { type: ParameterType.OBJECT },
     /** Time until the answer (ms). */
     rt: { type: ParameterType.INT },
-    /** Of a catch trial, whether everything that was expected was answered; null otherwise. */
+    /** Of a catch trial, whether it was passed, by the rule of `phase study`; null otherwise. */
     correct: { type: ParameterType.BOOL },
   },
   citations: {
@@ -37,8 +40,6 @@ const info = {
     bibtex: "@inproceedings{netanyahu2021phase, title = {{PHASE}: PHysically-grounded Abstract Social Events for Machine Social Perception}, author = {Netanyahu, Aviv and Shu, Tianmin and Katz, Boris and Barbu, Andrei and Tenenbaum, Joshua B.}, booktitle = {Proceedings of the AAAI Conference on Artificial Intelligence}, volume = {35}, number = {1}, pages = {845--853}, year = {2021}}",
   },
 };
-
-const same = (a, b) => JSON.stringify(a) === JSON.stringify(b);
 
 /** **phase-rating**: asks about a social event with one of PHASE's three forms. */
 class PhaseRatingPlugin {
@@ -49,8 +50,7 @@ class PhaseRatingPlugin {
   }
 
   #data(trial, response, rt) {
-    const expected = trial.expected && Object.entries(trial.expected);
-    const correct = expected ? expected.every(([name, value]) => same(response[name], value)) : null;
+    const correct = trial.expected ? passed(trial.expected, response) : null;
     return { form: trial.form, event: trial.event, response, rt, correct };
   }
 

@@ -61,11 +61,19 @@ class PhaseVideoPlugin {
 
     const start = () => {
       play.disabled = true;
-      video.currentTime = 0;
+      // Paused in the middle, it goes on from there.
+      if (video.ended || !video.currentTime) video.currentTime = 0;
       video.play().catch(() => { play.disabled = false; });
     };
     const hidden = () => { if (document.hidden && !video.paused) seen.hidden += 1; };
     document.addEventListener("visibilitychange", hidden);
+    // Whoever pauses it, the browser too: for a call, a key of the keyboard, a page in the background.
+    video.onpause = () => {
+      if (video.ended) return;
+      play.textContent = "Play on";
+      play.disabled = false;
+    };
+    video.onplay = () => { play.disabled = true; };
     video.onended = () => {
       seen.watched += 1;
       next.disabled = false;
