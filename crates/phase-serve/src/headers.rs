@@ -1,7 +1,8 @@
 //! Security of the pages: headers of every answer, and checks of the origin of requests.
 
-use crate::{App, error::ApiError};
+use crate::{App, error::ApiError, limits::network};
 use axum::{
+    body::{Body, to_bytes},
     extract::{ConnectInfo, Request, State},
     http::{HeaderMap, HeaderName, HeaderValue, StatusCode, header, uri::Authority},
     middleware::Next,
@@ -10,8 +11,13 @@ use axum::{
 use std::{
     net::{IpAddr, SocketAddr},
     sync::Arc,
-    time::Instant,
+    time::{Duration, Instant},
 };
+
+/// Largest body of a request (bytes): an answer, not a file.
+const LARGEST_BODY: usize = 64 * 1024;
+/// Time in which the body of a request has to come.
+const BODY_TIME: Duration = Duration::from_secs(10);
 
 /// Pages run no script and use no style but their own, and nothing comes from elsewhere.
 const POLICY: &str = "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data:; media-src 'self'; \
@@ -37,8 +43,14 @@ pub(crate) async fn guard(
         // Otherwise a page elsewhere could point its own name at this server and read what it answers (DNS
         // rebinding).
         ApiError::new(StatusCode::MISDIRECTED_REQUEST, "this server does not have this name").into_response()
+    } else if let Some(_doing) = app.answering.begin(address) {
+        match whole(request).await {
+            Ok(request) => next.run(request).await,
+            Err(error) => error.into_response(),
+        }
     } else {
-        next.run(request).await
+        ApiError::new(StatusCode::TOO_MANY_REQUESTS, "too many requests at once; wait a moment")
+            .into_response()
     };
     let policy = if playground { PLAYGROUND_POLICY } else { POLICY };
     let headers = response.headers_mut();
@@ -59,7 +71,20 @@ pub(crate) async fn guard(
     response
 }
 
-/// The address of who asks.
+/// A request once all of it is here.
+async fn whole(request: Request) -> Result<Request, ApiError> {
+    let (head, body) = request.into_parts();
+    let refused = |status, sentence: &str| Err(ApiError::new(status, sentence));
+    match tokio::time::timeout(BODY_TIME, to_bytes(body, LARGEST_BODY)).await {
+        Ok(Ok(bytes)) => Ok(Request::from_parts(head, Body::from(bytes))),
+        Ok(Err(_)) => {
+            refused(StatusCode::PAYLOAD_TOO_LARGE, "what was sent is too large, or was not sent whole")
+        }
+        Err(_) => refused(StatusCode::REQUEST_TIMEOUT, "what was sent took too long"),
+    }
+}
+
+/// The address of who asks, or what stands for it: see [`network`].
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Client(pub(crate) IpAddr);
 
@@ -70,7 +95,8 @@ fn client(app: &App, peer: SocketAddr, headers: &HeaderMap) -> IpAddr {
         let value = headers.get_all("x-forwarded-for").iter().next_back()?.to_str().ok()?;
         value.rsplit(',').next()?.trim().parse().ok()
     };
-    if app.settings.behind_proxy { forwarded().unwrap_or(peer.ip()) } else { peer.ip() }
+    let address = if app.settings.behind_proxy { forwarded() } else { None };
+    network(address.unwrap_or(peer.ip()))
 }
 
 /// The host that a request names.

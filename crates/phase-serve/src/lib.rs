@@ -39,10 +39,12 @@
 
 mod admin;
 mod assets;
+mod connections;
 mod error;
 mod headers;
 mod limits;
 mod log;
+mod places;
 mod rooms;
 mod server;
 mod settings;
@@ -54,11 +56,11 @@ pub use server::Server;
 pub use settings::ServerSettings;
 
 use assets::Assets;
-use limits::PerAddress;
+use limits::{AtOnce, PerAddress};
+use places::Places;
 use rooms::Rooms;
 use std::sync::Arc;
 use study::Studies;
-use tokio::sync::Semaphore;
 
 /// The state that all requests share.
 pub(crate) struct App {
@@ -67,11 +69,12 @@ pub(crate) struct App {
     admin: String,
     assets: Assets,
     rooms: Arc<Rooms>,
-    /// Sockets that may be open at the same time: some for each player, since a page that reconnects may be
-    /// faster than the end of its last connection.
-    sockets: Arc<Semaphore>,
+    /// Sockets that have not said which player they belong to.
+    strangers: Arc<Places>,
     /// Requests of an address.
     requests: PerAddress,
+    /// Requests of an address that are being answered.
+    answering: AtOnce,
     /// Rooms opened from an address.
     openings: PerAddress,
     studies: Studies,

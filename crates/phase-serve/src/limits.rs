@@ -1,8 +1,8 @@
-//! Limits of the rate of requests: token buckets.
+//! Limits of what an address may do: token buckets for its rate, and how much at the same time.
 
 use std::{
     collections::HashMap,
-    net::IpAddr,
+    net::{IpAddr, Ipv6Addr},
     sync::{Mutex, PoisonError},
     time::Instant,
 };
@@ -72,6 +72,63 @@ impl PerAddress {
     }
 }
 
+/// What stands for the address of a client: one that has a network of IPv6 to itself has one place, not as
+/// many as there are addresses in it.
+pub(crate) fn network(address: IpAddr) -> IpAddr {
+    match address.to_canonical() {
+        IpAddr::V6(address) => {
+            let [a, b, c, d, ..] = address.segments();
+            IpAddr::V6(Ipv6Addr::new(a, b, c, d, 0, 0, 0, 0))
+        }
+        address => address,
+    }
+}
+
+/// How many things each address does at the same time.
+#[derive(Debug)]
+pub(crate) struct AtOnce {
+    most: usize,
+    counts: Mutex<HashMap<IpAddr, usize>>,
+}
+
+/// Something that an address does, until this is dropped.
+#[derive(Debug)]
+pub(crate) struct Doing<'a> {
+    all: &'a AtOnce,
+    address: IpAddr,
+}
+
+impl AtOnce {
+    /// So many things of an address.
+    #[must_use]
+    pub(crate) fn new(most: usize) -> Self {
+        Self { most, counts: Mutex::default() }
+    }
+
+    /// Begins something, unless the address does too much already.
+    pub(crate) fn begin(&self, address: IpAddr) -> Option<Doing<'_>> {
+        let mut counts = self.counts.lock().unwrap_or_else(PoisonError::into_inner);
+        let count = counts.entry(address).or_default();
+        if *count >= self.most {
+            return None;
+        }
+        *count += 1;
+        Some(Doing { all: self, address })
+    }
+}
+
+impl Drop for Doing<'_> {
+    fn drop(&mut self) {
+        let mut counts = self.all.counts.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(count) = counts.get_mut(&self.address) {
+            *count -= 1;
+            if *count == 0 {
+                counts.remove(&self.address);
+            }
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -100,5 +157,25 @@ mod tests {
         });
         assert!(limit.buckets.lock().unwrap().len() <= REMEMBERED);
         assert!(limit.take(address(30_000), now + Duration::from_secs(2)));
+    }
+
+    #[test]
+    fn an_address_does_so_much_at_once() {
+        let all = AtOnce::new(2);
+        let [one, other] = ["10.0.0.1", "10.0.0.2"].map(|text| text.parse().expect("an address"));
+        let first = all.begin(one);
+        let _second = all.begin(one);
+        assert!(first.is_some() && all.begin(one).is_none() && all.begin(other).is_some());
+        drop(first);
+        assert!(all.begin(one).is_some());
+        assert_eq!(all.counts.lock().unwrap().len(), 1);
+    }
+
+    #[test]
+    fn a_network_of_ipv6_counts_as_one() {
+        let of = |text: &str| network(text.parse().expect("an address"));
+        assert_eq!(of("2001:db8:1:2::1"), of("2001:db8:1:2:ffff::9"));
+        assert_ne!(of("2001:db8:1:2::1"), of("2001:db8:1:3::1"));
+        assert_eq!(of("::ffff:10.0.0.1"), of("10.0.0.1"));
     }
 }

@@ -3,13 +3,14 @@
 use crate::{
     App, ServeError, ServerSettings, admin,
     assets::{self, Assets},
-    headers,
-    limits::PerAddress,
+    connections, headers,
+    limits::{AtOnce, PerAddress},
+    places::Places,
     rooms::{self, Rooms},
     study::{self, Studies},
     token,
 };
-use axum::{Router, body::Bytes, extract::DefaultBodyLimit, middleware};
+use axum::{Router, body::Bytes, middleware};
 use phase_files::folder::Lock;
 use phase_game::playlist::Item;
 use std::{
@@ -19,22 +20,19 @@ use std::{
     sync::Arc,
     time::Duration,
 };
-use tokio::{
-    runtime::Runtime,
-    sync::{Semaphore, watch},
-};
+use tokio::{runtime::Runtime, sync::watch};
 
-/// Largest body of a request (bytes): an answer, not a file.
-const LARGEST_BODY: usize = 64 * 1024;
 /// Requests of an address at once, and then a second. A page loads a few dozen files.
 const REQUESTS: (f64, f64) = (400.0, 200.0);
 /// Rooms opened from an address at once, and then a second.
 const OPENINGS: (f64, f64) = (30.0, 0.5);
 /// Raters who come from an address at once, and then a second. A class may sit behind one.
 const JOININGS: (f64, f64) = (300.0, 5.0);
-/// Sockets for each room: two for each player.
-const SOCKETS: usize = 4;
-/// Time in which open connections have to end when the server stops.
+/// Requests of an address that are answered at the same time.
+const ANSWERING: usize = 40;
+/// Sockets that have not said which player they belong to: in all, and of one address.
+const STRANGERS: (usize, usize) = (64, 16);
+/// Time in which what is being written has to end when the server stops.
 const PATIENCE: Duration = Duration::from_secs(5);
 
 /// A server that listens.
@@ -69,7 +67,7 @@ impl Server {
         wasm: Option<[&[u8]; 2]>,
     ) -> Result<Self, ServeError> {
         // Two servers would both go on with the same games.
-        let lock = Lock::take(&settings.folder)?;
+        let lock = Lock::take_private(&settings.folder)?;
         let runtime =
             tokio::runtime::Builder::new_multi_thread().enable_all().build().map_err(ServeError::Runtime)?;
         let failed = |source| ServeError::Listen { address: settings.listen, source };
@@ -84,8 +82,9 @@ impl Server {
             rooms: Rooms::open(settings.clone(), practice, scenes, stopped)?,
             assets: assets(wasm),
             admin: token::kept(&admin),
-            sockets: Arc::new(Semaphore::new(SOCKETS * settings.rooms)),
+            strangers: Arc::new(Places::new(STRANGERS.0, STRANGERS.1)),
             requests: PerAddress::new(REQUESTS.0, REQUESTS.1),
+            answering: AtOnce::new(ANSWERING),
             openings: PerAddress::new(OPENINGS.0, OPENINGS.1),
             studies: Studies::default(),
             joinings: PerAddress::new(JOININGS.0, JOININGS.1),
@@ -129,27 +128,20 @@ impl Server {
     /// [`ServeError::Runtime`].
     pub fn run(self, until: impl Future<Output = ()> + Send + 'static) -> Result<(), ServeError> {
         let Self { app, runtime, listener, stop, lock: _lock, .. } = self;
-        let service = router(Arc::new(app)).into_make_service_with_connect_info::<SocketAddr>();
-        let served = runtime.block_on(async move {
-            let mut stopped = stop.subscribe();
+        let behind_proxy = app.settings.behind_proxy;
+        let router = router(Arc::new(app));
+        runtime.block_on(async move {
+            let stopped = stop.subscribe();
             let stopping = async move {
                 until.await;
                 // Nobody may be listening any more.
                 let _ = stop.send(true);
             };
-            let late = async move {
-                // Connections that do not end by themselves are cut.
-                let _ = stopped.changed().await;
-                tokio::time::sleep(PATIENCE).await;
-            };
-            let serving = axum::serve(listener, service).with_graceful_shutdown(stopping);
-            tokio::select! {
-                served = async { serving.await } => served,
-                () = late => Ok(()),
-            }
+            let serving = connections::serve(listener, router, behind_proxy, stopped);
+            tokio::join!(serving, stopping);
         });
         runtime.shutdown_timeout(PATIENCE);
-        served.map_err(ServeError::Runtime)
+        Ok(())
     }
 }
 
@@ -160,7 +152,6 @@ fn router(app: Arc<App>) -> Router {
         .merge(admin::routes())
         .merge(study::routes())
         .fallback(assets::file)
-        .layer(DefaultBodyLimit::max(LARGEST_BODY))
         .layer(middleware::from_fn_with_state(Arc::clone(&app), headers::guard))
         .with_state(app)
 }

@@ -5,15 +5,18 @@
 //! cargo run --release --package phase-serve --example load_test -- --rooms 200 --seconds 30
 //! cargo run --release --package phase-serve --example load_test -- --rooms 10 --players minds
 //! cargo run --release --package phase-serve --example load_test -- --rooms 20 --partner mind
+//! cargo run --release --package phase-serve --example load_test -- --rooms 200 --misbehaving 50
 //! ```
 //!
 //! Players press keys at random, or are minds that see what the server tells their agents. Printed as JSON:
 //! how late steps arrived, in milliseconds after the time at which they were due. A room's schedule begins
 //! with the step that came earliest relative to its number, so lateness includes the server, the sockets and
-//! the players' own waiting for a processor.
+//! the players' own waiting for a processor. Also the resident memory of the server and all players, which are one
+//! program, each ten seconds.
 
 mod client;
 mod mind;
+mod misbehaving;
 
 use clap::{Parser, ValueEnum, value_parser};
 use client::{Client, Shared};
@@ -24,9 +27,15 @@ use phase_serve::{Server, ServerSettings};
 use serde_json::json;
 use std::{
     error::Error,
-    sync::Arc,
+    sync::{
+        Arc,
+        atomic::{AtomicBool, Ordering},
+    },
     time::{Duration, Instant},
 };
+
+/// Time between two looks at the memory.
+const BETWEEN: Duration = Duration::from_secs(10);
 
 /// Who plays in place of people.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, ValueEnum)]
@@ -64,6 +73,9 @@ struct Options {
     /// Simulations of a decision
     #[arg(long, default_value_t = 1000)]
     simulations: usize,
+    /// Beside them, clients of each kind that do not behave
+    #[arg(long, default_value_t = 0, value_parser = value_parser!(u16).range(0..=250))]
+    misbehaving: u16,
 }
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -80,7 +92,8 @@ fn main() -> Result<(), Box<dyn Error>> {
         host: None,
         behind_proxy: false,
         folder: folder.path().to_owned(),
-        rooms: usize::from(options.rooms),
+        // Two kinds of clients that do not behave have rooms.
+        rooms: usize::from(options.rooms + 2 * options.misbehaving),
         mind_rooms: usize::from(options.rooms),
         open: true,
         rounds: scenes.len(),
@@ -98,20 +111,20 @@ fn main() -> Result<(), Box<dyn Error>> {
     });
     let shared = Arc::new(Shared::new(scenes, parameters, options.players == Players::Minds));
     let runtime = tokio::runtime::Builder::new_multi_thread().enable_all().build()?;
-    let lateness = runtime.block_on(play(&options, address, &admin, &shared))?;
+    let (lateness, memory) = runtime.block_on(play(&options, address, &admin, &shared))?;
     let _ = stop.send(());
     serving.join().map_err(|_| "the server panicked")??;
-    println!("{}", report(&options, lateness));
+    println!("{}", report(&options, lateness, &memory));
     Ok(())
 }
 
-/// Plays for the time asked for; the lateness of each step of each player (ms).
+/// Plays for the time asked for; the lateness of each step of each player (ms), and the memory over time (MiB).
 async fn play(
     options: &Options,
     address: std::net::SocketAddr,
     admin: &str,
     shared: &Arc<Shared>,
-) -> Result<Vec<f64>, Box<dyn Error>> {
+) -> Result<(Vec<f64>, Vec<u64>), Box<dyn Error>> {
     let mut clients = Vec::new();
     for _ in 0..options.rooms {
         // As fast as the server lets one address ask.
@@ -130,17 +143,33 @@ async fn play(
     if shared.playing() < clients.len() {
         return Err("the games did not begin".into());
     }
+    let over = Arc::new(AtomicBool::new(false));
+    misbehaving::start(options.misbehaving, address, admin, &over);
     shared.measure(true);
-    tokio::time::sleep(Duration::from_secs(options.seconds.into())).await;
+    let mut memory = vec![resident()];
+    let begun = Instant::now();
+    let all = Duration::from_secs(options.seconds.into());
+    while begun.elapsed() < all {
+        tokio::time::sleep(BETWEEN.min(all.saturating_sub(begun.elapsed()))).await;
+        memory.push(resident());
+    }
     shared.measure(false);
+    over.store(true, Ordering::Relaxed);
     let mut lateness = Vec::new();
     for client in clients {
         lateness.extend(client.await?);
     }
-    Ok(lateness)
+    Ok((lateness, memory))
 }
 
-fn report(options: &Options, mut lateness: Vec<f64>) -> serde_json::Value {
+/// Resident memory of this program (MiB); 0 where the system does not tell it like Linux.
+fn resident() -> u64 {
+    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let line = status.lines().find_map(|line| line.strip_prefix("VmRSS:"));
+    line.and_then(|line| line.trim().trim_end_matches(" kB").parse::<u64>().ok()).unwrap_or_default() / 1024
+}
+
+fn report(options: &Options, mut lateness: Vec<f64>, memory: &[u64]) -> serde_json::Value {
     lateness.sort_by(f64::total_cmp);
     let quantile = |share: f64| {
         let rank = (share * lateness.len() as f64).ceil() as usize;
@@ -150,7 +179,8 @@ fn report(options: &Options, mut lateness: Vec<f64>) -> serde_json::Value {
         "rooms": options.rooms, "seconds": options.seconds,
         "players": format!("{:?}", options.players).to_lowercase(),
         "partner": format!("{:?}", options.partner).to_lowercase(),
-        "simulations": options.simulations, "steps_seen": lateness.len(),
+        "simulations": options.simulations, "misbehaving": options.misbehaving, "resident_mib": memory,
+        "steps_seen": lateness.len(),
         "late_ms": {
             "median": quantile(0.5), "p90": quantile(0.9), "p99": quantile(0.99), "worst": quantile(1.0),
         },

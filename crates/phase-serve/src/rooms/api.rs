@@ -70,7 +70,8 @@ async fn create(
     };
     let mut players = [asked.partner; 2];
     players[own] = Player::Human;
-    let opened = app.rooms.create(Wish { players, view: asked.view })?;
+    let opener = in_charge.is_err().then_some(address);
+    let opened = app.rooms.create(Wish { opener, players, view: asked.view }).await?;
     Ok((StatusCode::CREATED, Json(json!({ "room": opened.name, "agent": own, "tokens": opened.tokens }))))
 }
 
@@ -82,18 +83,20 @@ async fn describe(State(app): State<Arc<App>>) -> Json<Value> {
 /// A player's socket; who it is comes in the first message, so that it is in no log.
 async fn connect(
     State(app): State<Arc<App>>,
+    Extension(Client(address)): Extension<Client>,
     headers: HeaderMap,
     upgrade: WebSocketUpgrade,
 ) -> Result<Response, ApiError> {
     if !same_origin(&headers) {
         return Err(ApiError::new(StatusCode::FORBIDDEN, "pages of other sites play no games"));
     }
-    let permit = Arc::clone(&app.sockets).try_acquire_owned();
-    let permit = permit.map_err(|_| ApiError::busy("too many players are here; try again later"))?;
+    let stranger = app.strangers.enter(address);
     let rooms: Arc<Rooms> = Arc::clone(&app.rooms);
-    let upgrade = upgrade.max_message_size(socket::LARGEST_MESSAGE).max_frame_size(socket::LARGEST_MESSAGE);
-    Ok(upgrade.on_upgrade(async move |socket| {
-        socket::play(rooms, socket).await;
-        drop(permit);
-    }))
+    let upgrade = upgrade
+        .max_message_size(socket::LARGEST_MESSAGE)
+        .max_frame_size(socket::LARGEST_MESSAGE)
+        .read_buffer_size(socket::BUFFER)
+        .write_buffer_size(socket::BUFFER)
+        .max_write_buffer_size(socket::LARGEST_BACKLOG);
+    Ok(upgrade.on_upgrade(async move |socket| socket::play(rooms, socket, stranger).await))
 }

@@ -1,6 +1,6 @@
 //! The journal of a game on disk: `rooms/<name>.jsonl`.
 
-use phase_files::WriteError;
+use phase_files::{WriteError, private};
 use phase_game::Entry;
 use std::{
     fs::{self, File, OpenOptions},
@@ -28,7 +28,7 @@ impl JournalFile {
     /// A new journal; the file must not exist.
     pub(super) fn create(folder: &Path, room: &str) -> Result<Self, WriteError> {
         let path = Self::path(folder, room);
-        let opened = OpenOptions::new().append(true).create_new(true).open(&path);
+        let opened = private::options().append(true).create_new(true).open(&path);
         match opened {
             Ok(file) => Ok(Self { path, file }),
             Err(source) => Err(WriteError { path, action: "create", source }),
@@ -58,14 +58,13 @@ impl JournalFile {
     }
 }
 
-/// The journals of a folder and what is in them, by name of the file.
-pub(super) fn read_all(folder: &Path) -> io::Result<Vec<(PathBuf, String)>> {
+/// The journals of a folder, by name.
+pub(super) fn all(folder: &Path) -> io::Result<Vec<PathBuf>> {
     let mut files = Vec::new();
     for entry in fs::read_dir(folder)? {
         let path = entry?.path();
         if path.extension().is_some_and(|extension| extension == "jsonl") && path.is_file() {
-            let text = String::from_utf8_lossy(&fs::read(&path)?).into_owned();
-            files.push((path, text));
+            files.push(path);
         }
     }
     files.sort();

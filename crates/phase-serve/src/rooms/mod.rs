@@ -2,36 +2,34 @@
 
 mod api;
 mod journal_file;
+mod resume;
 mod socket;
 mod task;
 
 use crate::{
     error::{ApiError, ServeError},
-    log,
+    limits::Bucket,
     settings::ServerSettings,
     token,
 };
 use axum::http::StatusCode;
 use core::time::Duration;
 use journal_file::JournalFile;
-use phase_files::WriteError;
-use phase_game::{
-    Effect, GameSettings, Player, Playlist, Room, Round, View,
-    journal::{Entry, entries},
-    playlist::Item,
-};
+use phase_files::{WriteError, private};
+use phase_game::{Doing, Effect, GameSettings, Player, Playlist, Room, Round, View, playlist::Item};
 use phase_model::{
     AGENT_COUNT, AgentId,
     random::{Purpose, derive_seed},
 };
 use std::{
     collections::HashMap,
-    fs,
+    net::IpAddr,
     path::PathBuf,
     sync::{
         Arc, Mutex, MutexGuard, PoisonError,
         atomic::{AtomicU64, Ordering},
     },
+    time::Instant,
 };
 use task::{Command, Status, Task};
 use tokio::sync::{Semaphore, mpsc, watch};
@@ -42,10 +40,20 @@ pub(crate) use api::routes;
 const INBOX: usize = 64;
 /// Letters of an event's id that stay in the id of a recording.
 const SOURCE_LETTERS: usize = 80;
+/// Connections of a player at once, and then a second: of a page that is reloaded, not of one that takes its
+/// own place again and again.
+const COMINGS: (f64, f64) = (10.0, 0.5);
+/// Rooms that one address may always have at the same time; and games with a mind. Beyond that no address
+/// has more than half of them.
+const OF_ADDRESS: (usize, usize) = (32, 4);
+/// Time in which somebody has to come into a room that anybody could open, before it is given up.
+const UNVISITED: Duration = Duration::from_secs(120);
 
 /// The wish for a room: its players, and the part of the world that they see.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Wish {
+    /// The address of who opens it; absent for the person in charge.
+    pub(crate) opener: Option<IpAddr>,
     pub(crate) players: [Player; AGENT_COUNT],
     pub(crate) view: View,
 }
@@ -60,15 +68,48 @@ pub(crate) struct Opened {
 struct Running {
     /// Whether a mind plays.
     mind: bool,
+    opener: Option<IpAddr>,
     inbox: mpsc::Sender<Command>,
     status: Arc<Mutex<Status>>,
+}
+
+/// The place of a player.
+struct Seat {
+    room: String,
+    agent: AgentId,
+    comings: Bucket,
 }
 
 #[derive(Default)]
 struct Table {
     rooms: HashMap<String, Running>,
-    /// By what is kept of a token, the room and the agent.
-    seats: HashMap<String, (String, AgentId)>,
+    /// By what is kept of a token.
+    seats: HashMap<String, Seat>,
+}
+
+/// A room that is in the table, and leaves it when this is dropped, however its task ends.
+struct Listed {
+    rooms: Arc<Rooms>,
+    name: String,
+    commands: Option<mpsc::Receiver<Command>>,
+    status: Arc<Mutex<Status>>,
+}
+
+impl Drop for Listed {
+    fn drop(&mut self) {
+        let mut table = lock(&self.rooms.table);
+        table.rooms.remove(&self.name);
+        table.seats.retain(|_, seat| seat.room != self.name);
+    }
+}
+
+/// Why a player is not let in.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+enum NoSeat {
+    /// There is no such game, or it is over.
+    Unknown,
+    /// The player has come too often.
+    TooOften,
 }
 
 /// The games of a server.
@@ -80,16 +121,19 @@ pub(crate) struct Rooms {
     cores: Arc<Semaphore>,
     stop: watch::Receiver<bool>,
     connections: AtomicU64,
+    /// Whether all journals have been looked at.
+    known: watch::Receiver<bool>,
 }
 
 impl Rooms {
-    /// The games in a server's folder go on; `practice` and `scenes` are for new ones.
+    /// The games in a server's folder go on, in the background; `practice` and `scenes` are for new ones.
     pub(crate) fn open(
         settings: ServerSettings,
         practice: Item,
         scenes: Vec<Item>,
         stop: watch::Receiver<bool>,
     ) -> Result<Arc<Self>, ServeError> {
+        let (told, known) = watch::channel(false);
         let cores = std::thread::available_parallelism().map_or(1, usize::from);
         let rooms = Arc::new(Self {
             playlist: Mutex::new(Playlist::new(scenes, settings.seed)),
@@ -99,13 +143,22 @@ impl Rooms {
             practice,
             settings,
             stop,
+            known,
         });
         for folder in [rooms.journals(), rooms.events()] {
-            let failed = |source| WriteError { path: folder.clone(), action: "create the folder", source };
-            fs::create_dir_all(&folder).map_err(failed)?;
+            let failed = |source| WriteError { path: folder.clone(), action: "prepare the folder", source };
+            private::take_folder(&folder).map_err(failed)?;
         }
-        rooms.resume()?;
+        let folder = rooms.journals();
+        let files = journal_file::all(&folder).map_err(|source| ServeError::Read { path: folder, source })?;
+        resume::begin(Arc::clone(&rooms), files, told);
         Ok(rooms)
+    }
+
+    /// Waits until all games are known that the server has.
+    async fn known(&self) {
+        // The sender is dropped once they are.
+        let _ = self.known.clone().wait_for(|known| *known).await;
     }
 
     /// Folder of journals.
@@ -118,52 +171,9 @@ impl Rooms {
         self.settings.folder.join("events")
     }
 
-    /// Reads the journals: games that are not over go on, and scenes that were played before count as given.
-    fn resume(self: &Arc<Self>) -> Result<(), ServeError> {
-        let folder = self.journals();
-        let files = journal_file::read_all(&folder)
-            .map_err(|source| ServeError::Read { path: folder.clone(), source })?;
-        for (path, text) in files {
-            let read = match entries(&text) {
-                Ok(read) => read,
-                Err(error) => {
-                    log::line(&format!("{}: {error}; this game does not go on", path.display()));
-                    continue;
-                }
-            };
-            if let Some(Entry::Opened { rounds, .. }) = read.first() {
-                let mut playlist = lock(&self.playlist);
-                rounds.iter().skip(1).for_each(|round| playlist.note(&round.source));
-            }
-            match Room::resume(read, Duration::ZERO) {
-                Ok(None) => {}
-                Ok(Some((room, effects))) => {
-                    let journal = JournalFile::reopen(&path, &text)?;
-                    self.start(room, journal, effects);
-                }
-                Err(error) => {
-                    log::line(&format!("{}: {error}; this game does not go on", path.display()));
-                }
-            }
-        }
-        Ok(())
-    }
-
     /// Opens a room.
-    pub(crate) fn create(self: &Arc<Self>, wish: Wish) -> Result<Opened, ApiError> {
-        let full = || ApiError::busy("all rooms are taken; try again later");
-        let minds = {
-            let table = lock(&self.table);
-            if table.rooms.len() >= self.settings.rooms {
-                return Err(full());
-            }
-            table.rooms.values().filter(|running| running.mind).count()
-        };
-        if wish.players.contains(&Player::Mind) && minds >= self.settings.mind_rooms {
-            return Err(ApiError::busy(
-                "all minds are playing; try again later, or play with another person",
-            ));
-        }
+    pub(crate) async fn create(self: &Arc<Self>, wish: Wish) -> Result<Opened, ApiError> {
+        self.known().await;
         let failed = |error: getrandom::Error| ApiError::failed(&error);
         let name = token::short().map_err(failed)?;
         let mut tokens = [None, None];
@@ -173,14 +183,40 @@ impl Rooms {
             }
         }
         let keys = tokens.each_ref().map(|token| token.as_deref().map(token::kept));
+        let listed =
+            self.list(&name, &keys, wish.players, wish.opener, |table| self.has_room(table, wish))?;
         let game = GameSettings { players: wish.players, view: wish.view, ..self.settings.game };
         let room = Room::open(&name, keys, game, self.rounds(&name), Duration::ZERO)
             .map_err(|error| ApiError::failed(&error))?;
         let mut journal =
             JournalFile::create(&self.journals(), &name).map_err(|error| ApiError::failed(&error))?;
         task::begin(&mut journal, &room).map_err(|error| ApiError::failed(&error))?;
-        self.start(room, journal, Vec::new());
+        let unvisited = wish.opener.is_some().then_some(UNVISITED);
+        self.start(listed, room, journal, Vec::new(), unvisited);
         Ok(Opened { name, tokens })
+    }
+
+    /// Whether there may be another room.
+    fn has_room(&self, table: &Table, wish: Wish) -> Result<(), ApiError> {
+        let own = |running: &&Running| wish.opener.is_some() && running.opener == wish.opener;
+        let rooms = table.rooms.values();
+        if rooms.len() >= self.settings.rooms {
+            return Err(ApiError::busy("all rooms are taken; try again later"));
+        }
+        if rooms.clone().filter(own).count() >= OF_ADDRESS.0.max(self.settings.rooms / 2) {
+            return Err(ApiError::busy("too many rooms were opened from here; try again later"));
+        }
+        let minds = rooms.filter(|running| running.mind);
+        let own_minds = minds.clone().filter(own).count();
+        if wish.players.contains(&Player::Mind)
+            && (minds.count() >= self.settings.mind_rooms
+                || own_minds >= OF_ADDRESS.1.max(self.settings.mind_rooms / 2))
+        {
+            return Err(ApiError::busy(
+                "all minds are playing; try again later, or play with another person",
+            ));
+        }
+        Ok(())
     }
 
     /// The practice, and scenes that were played least so far.
@@ -202,55 +238,82 @@ impl Rooms {
         std::iter::once(practice).chain(rounds).collect()
     }
 
-    fn start(self: &Arc<Self>, room: Room, journal: JournalFile, effects: Vec<Effect>) {
+    /// Puts a room into the table, if it may be there.
+    fn list(
+        self: &Arc<Self>,
+        name: &str,
+        keys: &[Option<String>; AGENT_COUNT],
+        players: [Player; AGENT_COUNT],
+        opener: Option<IpAddr>,
+        may: impl FnOnce(&Table) -> Result<(), ApiError>,
+    ) -> Result<Listed, ApiError> {
         let (inbox, commands) = mpsc::channel(INBOX);
-        let (round, rounds) = room.progress();
         let status = Arc::new(Mutex::new(Status {
-            doing: room.doing(),
-            round,
-            rounds,
+            doing: Doing::Gathering,
+            round: 0,
+            rounds: 0,
             connected: [false; AGENT_COUNT],
             round_trip_ms: [None; AGENT_COUNT],
         }));
-        let name = room.name().to_owned();
-        {
-            let mut table = lock(&self.table);
-            for agent in AgentId::ALL {
-                if let Some(key) = &room.keys()[agent] {
-                    table.seats.insert(key.clone(), (name.clone(), agent));
-                }
-            }
-            let mind = room.players().contains(&Player::Mind);
-            table.rooms.insert(name.clone(), Running { mind, inbox, status: Arc::clone(&status) });
+        let mut table = lock(&self.table);
+        may(&table)?;
+        if table.rooms.contains_key(name) {
+            return Err(ApiError::busy("there is a room of this name; try again"));
         }
+        for agent in AgentId::ALL {
+            if let Some(key) = &keys[agent] {
+                let comings = Bucket::new(COMINGS.0, COMINGS.1, Instant::now());
+                let seat = Seat { room: name.to_owned(), agent, comings };
+                table.seats.entry(key.clone()).or_insert(seat);
+            }
+        }
+        let mind = players.contains(&Player::Mind);
+        let running = Running { mind, opener, inbox, status: Arc::clone(&status) };
+        table.rooms.insert(name.to_owned(), running);
+        drop(table);
+        Ok(Listed { rooms: Arc::clone(self), name: name.to_owned(), commands: Some(commands), status })
+    }
+
+    /// Lets a room begin. `unvisited` is the time in which somebody has to come.
+    fn start(
+        &self,
+        mut listed: Listed,
+        room: Room,
+        journal: JournalFile,
+        effects: Vec<Effect>,
+        unvisited: Option<Duration>,
+    ) {
+        let Some(inbox) = listed.commands.take() else { return };
         let task = Task {
             room,
             journal,
             events: self.events(),
-            inbox: commands,
-            status,
+            inbox,
+            status: Arc::clone(&listed.status),
             cores: Arc::clone(&self.cores),
             stop: self.stop.clone(),
+            unvisited,
         };
-        let rooms = Arc::clone(self);
         tokio::spawn(async move {
             task.run(effects).await;
-            rooms.forget(&name);
+            drop(listed);
         });
     }
 
-    fn forget(&self, name: &str) {
-        let mut table = lock(&self.table);
-        table.rooms.remove(name);
-        table.seats.retain(|_, (room, _)| room != name);
-    }
-
     /// The room and the agent that a token lets in.
-    fn seat(&self, token: &str) -> Option<(mpsc::Sender<Command>, Arc<Mutex<Status>>, AgentId)> {
-        let table = lock(&self.table);
-        let (room, agent) = table.seats.get(&token::kept(token))?;
-        let running = table.rooms.get(room)?;
-        Some((running.inbox.clone(), Arc::clone(&running.status), *agent))
+    async fn seat(
+        &self,
+        token: &str,
+    ) -> Result<(mpsc::Sender<Command>, Arc<Mutex<Status>>, AgentId), NoSeat> {
+        self.known().await;
+        let mut table = lock(&self.table);
+        let Table { rooms, seats } = &mut *table;
+        let seat = seats.get_mut(&token::kept(token)).ok_or(NoSeat::Unknown)?;
+        let running = rooms.get(&seat.room).ok_or(NoSeat::Unknown)?;
+        if !seat.comings.take(Instant::now()) {
+            return Err(NoSeat::TooOften);
+        }
+        Ok((running.inbox.clone(), Arc::clone(&running.status), seat.agent))
     }
 
     /// Ends a game.

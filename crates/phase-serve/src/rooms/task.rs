@@ -1,6 +1,6 @@
 //! A game that runs: its clock, its journal, its players' connections.
 
-use super::journal_file::JournalFile;
+use super::{journal_file::JournalFile, resume::file_name};
 use crate::log;
 use axum::extract::ws::Utf8Bytes;
 use phase_event::Recording;
@@ -9,7 +9,10 @@ use phase_game::{Doing, Effect, Ending, Entry, FromPlayer, Room, RoomError, ToPl
 use phase_model::{AGENT_COUNT, AgentId};
 use std::{
     path::PathBuf,
-    sync::{Arc, Mutex, PoisonError},
+    sync::{
+        Arc, Mutex, PoisonError,
+        atomic::{AtomicBool, Ordering},
+    },
     time::Duration,
 };
 use thiserror::Error;
@@ -21,11 +24,22 @@ use tokio::{
 /// Time for which the page of a finished game stays connected, so that its last messages arrive.
 const LINGER: Duration = Duration::from_secs(2);
 
+/// The connection of a player, as its room has it.
+#[derive(Debug)]
+pub(super) struct Line {
+    pub(super) connection: u64,
+    pub(super) out: mpsc::Sender<Utf8Bytes>,
+    /// Whether another page of the player has taken its place.
+    pub(super) replaced: Arc<AtomicBool>,
+}
+
+type Lines = [Option<Line>; AGENT_COUNT];
+
 /// A command to a room.
 #[derive(Debug)]
 pub(super) enum Command {
     /// A connection for a player.
-    Connect { agent: AgentId, connection: u64, out: mpsc::Sender<Utf8Bytes> },
+    Connect { agent: AgentId, line: Line },
     /// It is gone.
     Disconnect { agent: AgentId, connection: u64 },
     /// A message that came over it.
@@ -64,13 +78,15 @@ pub(super) struct Task {
     /// As many minds think at the same time as there are cores.
     pub(super) cores: Arc<Semaphore>,
     pub(super) stop: watch::Receiver<bool>,
+    /// Time in which somebody has to come, before the game is given up.
+    pub(super) unvisited: Option<Duration>,
 }
 
 impl Task {
     /// Plays the game to its end, or until the server stops. Returns whether it is over.
     pub(super) async fn run(mut self, started: Vec<Effect>) -> bool {
         let begun = Instant::now();
-        let mut seats: [Option<(u64, mpsc::Sender<Utf8Bytes>)>; AGENT_COUNT] = [None, None];
+        let mut seats: Lines = [None, None];
         let mut effects = started;
         loop {
             if let Err(error) = self.carry_out(effects, &mut seats).await {
@@ -95,7 +111,12 @@ impl Task {
                 self = self.think().await;
             }
             let due = self.room.due().map_or_else(|| begun + Duration::from_secs(3600), |due| begun + due);
+            let given_up = self.unvisited.map_or(due, |unvisited| begun + unvisited);
             effects = tokio::select! {
+                () = sleep_until(given_up), if self.unvisited.is_some() => {
+                    self.unvisited = None;
+                    self.room.receive(AgentId::ZERO, FromPlayer::Leave, begun.elapsed())
+                }
                 () = sleep_until(due) => self.room.advance(begun.elapsed()),
                 command = self.inbox.recv() => match command {
                     Some(command) => self.obey(command, &mut seats, begun.elapsed()),
@@ -106,27 +127,26 @@ impl Task {
         }
     }
 
-    fn obey(
-        &mut self,
-        command: Command,
-        seats: &mut [Option<(u64, mpsc::Sender<Utf8Bytes>)>; AGENT_COUNT],
-        now: Duration,
-    ) -> Vec<Effect> {
-        let is = |agent: AgentId, connection: u64| {
-            seats[agent].as_ref().is_some_and(|(current, _)| *current == connection)
-        };
+    fn obey(&mut self, command: Command, seats: &mut Lines, now: Duration) -> Vec<Effect> {
+        let current = seats.each_ref().map(|line| line.as_ref().map(|line| line.connection));
         match command {
-            Command::Connect { agent, connection, out } => {
+            Command::Connect { agent, line } => {
+                self.unvisited = None;
                 // The newest page of a player counts; the one before it is disconnected when its sender is
                 // dropped.
-                seats[agent] = Some((connection, out));
+                if let Some(before) = seats[agent].replace(line) {
+                    before.replaced.store(true, Ordering::Relaxed);
+                }
                 self.room.connect(agent, now)
             }
-            Command::Disconnect { agent, connection } if is(agent, connection) => {
+            // Also where it did not keep up and was dropped before.
+            Command::Disconnect { agent, connection }
+                if current[agent].is_none_or(|current| current == connection) =>
+            {
                 seats[agent] = None;
                 self.room.disconnect(agent, now)
             }
-            Command::Message { agent, connection, message } if is(agent, connection) => {
+            Command::Message { agent, connection, message } if current[agent] == Some(connection) => {
                 self.room.receive(agent, message, now)
             }
             Command::End => self.room.receive(AgentId::ZERO, FromPlayer::Leave, now),
@@ -153,11 +173,7 @@ impl Task {
         self
     }
 
-    async fn carry_out(
-        &mut self,
-        effects: Vec<Effect>,
-        seats: &mut [Option<(u64, mpsc::Sender<Utf8Bytes>)>; AGENT_COUNT],
-    ) -> Result<(), WriteError> {
+    async fn carry_out(&mut self, effects: Vec<Effect>, seats: &mut Lines) -> Result<(), WriteError> {
         for effect in effects {
             match effect {
                 // Some bytes into the page cache, which takes microseconds.
@@ -172,7 +188,7 @@ impl Task {
         Ok(())
     }
 
-    fn publish(&self, seats: &[Option<(u64, mpsc::Sender<Utf8Bytes>)>; AGENT_COUNT]) {
+    fn publish(&self, seats: &Lines) {
         let mut status = self.status.lock().unwrap_or_else(PoisonError::into_inner);
         status.doing = self.room.doing();
         (status.round, status.rounds) = self.room.progress();
@@ -181,12 +197,8 @@ impl Task {
 }
 
 /// Sends a message; a connection that does not keep up is dropped, and the player's page connects again.
-fn send(
-    seats: &mut [Option<(u64, mpsc::Sender<Utf8Bytes>)>; AGENT_COUNT],
-    agent: AgentId,
-    message: &ToPlayer,
-) {
-    let Some((_, out)) = &seats[agent] else { return };
+fn send(seats: &mut Lines, agent: AgentId, message: &ToPlayer) {
+    let Some(Line { out, .. }) = &seats[agent] else { return };
     // Messages have no maps with other keys than texts and no numbers that are not finite.
     let text = serde_json::to_string(message).unwrap_or_default();
     if out.try_send(text.into()).is_err() {
@@ -196,14 +208,19 @@ fn send(
 
 /// Writes a recording, as a file of one event.
 async fn save(folder: PathBuf, recording: Box<Recording>) -> Result<(), WriteError> {
-    let path = folder.join(format!("{}.json", recording.id));
+    let wrong = |rule| WriteError {
+        path: folder.clone(),
+        action: "write into the folder",
+        source: std::io::Error::other(rule),
+    };
+    let path = file_name(&recording.id).map_err(wrong)?.below(&folder);
     let write = move || {
         let text = phase_event::to_json(&[*recording]).map_err(|error| WriteError {
             path: path.clone(),
             action: "write",
             source: std::io::Error::other(error),
         })?;
-        atomic::write(&path, text.as_bytes())
+        atomic::write_private(&path, text.as_bytes())
     };
     match tokio::task::spawn_blocking(write).await {
         Ok(written) => written,

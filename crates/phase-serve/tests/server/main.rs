@@ -1,5 +1,6 @@
 //! The server over real sockets: what it answers, what it refuses, and that it goes on where it was stopped.
 
+mod misbehaving;
 mod support;
 
 use phase_game::{GameSettings, View, playlist::Item};

@@ -139,6 +139,15 @@ pub(crate) struct Player {
 
 impl Player {
     pub(crate) fn try_open(server: &Running, origin: Option<&str>) -> Result<Self, String> {
+        Self::try_open_from(server, [127, 0, 0, 1], origin)
+    }
+
+    /// From an address of this machine, which has many.
+    pub(crate) fn try_open_from(
+        server: &Running,
+        from: [u8; 4],
+        origin: Option<&str>,
+    ) -> Result<Self, String> {
         let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build().expect("a runtime");
         let socket = runtime.block_on(async {
             let mut request =
@@ -146,7 +155,9 @@ impl Player {
             if let Some(origin) = origin {
                 request.headers_mut().insert("Origin", origin.parse().expect("a header"));
             }
-            let stream = tokio::net::TcpStream::connect(server.address).await.expect("it listens");
+            let stream = tokio::net::TcpSocket::new_v4().expect("a socket");
+            stream.bind((from, 0).into()).expect("an address of this machine");
+            let stream = stream.connect(server.address).await.expect("it listens");
             client_async(request, stream).await.map(|(socket, _)| socket).map_err(|error| error.to_string())
         })?;
         Ok(Self { socket, runtime })
@@ -166,6 +177,20 @@ impl Player {
         self.send_text(&message.to_string());
     }
 
+    /// Sends several messages at once, without looking at what comes back.
+    pub(crate) fn send_all(&mut self, messages: impl IntoIterator<Item = Message>) {
+        let sent = async {
+            for message in messages {
+                if self.socket.feed(message).await.is_err() {
+                    return;
+                }
+            }
+            let _ = self.socket.flush().await;
+        };
+        // What is never read stops what is written.
+        let _ = self.runtime.block_on(async { tokio::time::timeout(PATIENCE, sent).await });
+    }
+
     /// A connection that is closed already cannot be written to.
     pub(crate) fn send_text(&mut self, text: &str) {
         let _ = self.runtime.block_on(self.socket.send(Message::text(text)));
@@ -177,7 +202,7 @@ impl Player {
     }
 
     /// The next message that is so.
-    pub(crate) fn until(&mut self, wanted: impl Fn(&Value) -> bool) -> Value {
+    pub(crate) fn until(&mut self, mut wanted: impl FnMut(&Value) -> bool) -> Value {
         loop {
             match self.next() {
                 Some(Message::Text(text)) => {
