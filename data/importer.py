@@ -47,6 +47,20 @@ def shown(value):
     return text if len(text) <= SHOWN_CHARACTERS else text[:SHOWN_CHARACTERS] + "..."
 
 
+def read_json(line):
+    """JSON without names that an object has twice: which of them counts differs from reader to reader."""
+    def members(pairs):
+        result = dict(pairs)
+        if len(result) < len(pairs):
+            names = [name for name, _ in pairs]
+            raise Unusable(f"has the member `{shown(next(name for name in names if names.count(name) > 1))}` twice")
+        return result
+    try:
+        return json.loads(line, object_pairs_hook=members)
+    except (ValueError, RecursionError) as error:
+        raise Unusable("is no JSON") from error
+
+
 def import_numpy():
     """numpy, or None where it is not installed."""
     # One thread needs less address space; nothing is computed here.

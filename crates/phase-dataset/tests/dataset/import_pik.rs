@@ -34,7 +34,7 @@ sys.path.insert(0, sys.argv[1])
 import import_pik
 record, _ = import_pik.made_up(None, False)
 record.update({"sizes": [0.8, 1.2, 1.6, 1.01], "strengths": [90, 30], "entity_color_code": {0: 0, 1: 1, 2: 2, 3: 3},
-               "name": "D_F8_E2_GLMO_0_2_1_LMO_0_2_1_ST0_2_SZ0_1_2_3_P1_5_2_4_L100_R10_0_e3"})
+               "name": "D_F8_E2_GLMO_0_2_1_LMO_0_2_1_ST2_0_SZ0_1_3_2_P1_5_2_4_L100_R10_0_e3"})
 record["trajectories"][0][0][0] = 10.06
 def keep(name, content):
     with open(name, "wb") as stream:
@@ -104,5 +104,101 @@ fn crafted_files_are_refused_and_harm_nobody() {
         assert_eq!(said.lines().count(), 1, "{file}: {said}");
         assert!(said.starts_with(&format!("error: {file}: ")), "{file}: {said}");
         assert!(!out.exists() && !folder.path().join("harmed").exists(), "{file}");
+    }
+}
+
+/// Gives `folder` a record for each change of a name or of a field, none of which means anything.
+const NOT_UNDERSTOOD: &str = r#"
+import pickle, sys
+NAME = "D010121_1_0_F8_E2_G['LMO', 0, 2, 1]_['LMO', 0, 2, 1]_ST1_1_SZ0_0_1_1_P1_5_2_4_A0_0_AN0.1_0.2_MCTS_L6_R0.0_10.0_e3"
+row = lambda k, t: [10.0 + 3 * k + 0.02 * t, 14.0, 0.0, 0.0, 0.1 * t]
+whole = {"trajectories": [[row(k, t) for t in range(7)] for k in range(4)], "entity_sizes": [0.8, 0.8, 1.2, 1.2],
+         "entity_color_code": {0: 1, 1: 0, 2: 2, 3: 3}, "social_goals": "friendly"}
+count = 0
+def keep(**changes):
+    global count
+    with open(f"{'bad' if changes else 'good'}-{count}.pik", "wb") as stream:
+        pickle.dump({**whole, "name": NAME, **changes}, stream)
+    count += 1
+keep()
+for old, new in [("R0.0_10.0", "Rnone_10"), ("_R0.0_10.0", ""), ("R0.0_10.0", "R0.0"), ("R0.0_10.0", "R0.0_1e1"),
+                 ("E2_", "E99_"), ("E2_", "E2.7_"), ("['LMO', 0, 2, 1]_", ""), ("'LMO', 0, 2, 1]_", "'LMX', 0, 2, 1]_"),
+                 ("ST1_1", "ST1_9"), ("SZ0_0_1_1", "SZ0_1_1_1"), ("P1_", "P77_"), ("_L6", "_L"), ("_L6", "_L6_L7"),
+                 ("_e3", "_R10.0_0.0_e3"), ("D010121_1_0_F8", "any thing")]:
+    assert old in NAME
+    keep(name=NAME.replace(old, new, 1))
+keep(name=7)
+keep(video_name="another")
+keep(sizes=[0.8, 0.8, 1.2, 0.8])
+keep(strengths=[30, 30])
+keep(entity_color_code=None)
+keep(entity_color_code={0: "1", 1: 0, 2: 2, 3: 3})
+keep(social_goals="kind")
+keep(actions=[[0, 99]] * 6)
+keep(actions=[[0] * 6, [0] * 5])
+"#;
+
+#[test]
+fn a_name_or_record_is_understood_whole_or_refused() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let made = Command::new("python3").args(["-c", NOT_UNDERSTOOD]).current_dir(folder.path()).output();
+    let Ok(made) = made else {
+        eprintln!("skipped: there is no python3");
+        return;
+    };
+    assert!(made.status.success(), "{}", String::from_utf8_lossy(&made.stderr));
+    let out = folder.path().join("events.json");
+    let mut refused = 0;
+    let files = std::fs::read_dir(folder.path()).expect("a folder");
+    for file in files.map(|entry| entry.expect("an entry").path()).collect::<Vec<_>>() {
+        let output = Command::new("python3").arg(IMPORTER).arg(&file).arg("--out").arg(&out).output();
+        let output = output.expect("python3");
+        let said = String::from_utf8_lossy(&output.stderr).into_owned();
+        if file.file_name().is_some_and(|name| name == "good-0.pik") {
+            assert!(output.status.success(), "{said}");
+            let recordings = read(&out).expect("phase-events/1");
+            assert_eq!(recordings[0].scene.kind, EventKind::Helping);
+            std::fs::remove_file(&out).expect("it was there");
+        } else {
+            assert_eq!(output.status.code(), Some(2), "{}: {said}", file.display());
+            assert_eq!(said.lines().count(), 1, "{said}");
+            assert!(!out.exists(), "{}", file.display());
+            refused += 1;
+        }
+    }
+    assert_eq!(refused, 24);
+}
+
+/// Real recordings, absent from the repository.
+const REAL: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/real-phase/videos-dev.pkl");
+
+#[test]
+fn both_importers_agree_on_the_published_recordings() {
+    let numpy = Command::new("python3").args(["-c", "import numpy"]).output();
+    if !std::path::Path::new(REAL).is_file() || !numpy.is_ok_and(|output| output.status.success()) {
+        eprintln!("skipped: the published recordings, or python3 with numpy, are not at hand");
+        return;
+    }
+    let folder = tempfile::tempdir().expect("a folder");
+    let other = concat!(env!("CARGO_MANIFEST_DIR"), "/../../data/import_socialgnn.py");
+    let events = |script: &str, out: &[&str], angles: &str| {
+        let mut command = Command::new("python3");
+        command.arg(script).arg(REAL).args(out).args(["--angles", angles]).current_dir(folder.path());
+        let output = command.output().expect("python3");
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        let text = std::fs::read(folder.path().join("events.json")).expect("written");
+        let mut file: serde_json::Value = serde_json::from_slice(&text).expect("JSON");
+        let mut events = file["events"].take();
+        for event in events.as_array_mut().expect("a list") {
+            // The importers give ids in their own ways.
+            event.as_object_mut().expect("an event").remove("id");
+        }
+        events
+    };
+    for angles in ["one-way", "consistent"] {
+        let found = events(IMPORTER, &["--out", "events.json"], angles);
+        let wanted = events(other, &["events.json"], angles);
+        assert_eq!(found.as_array().expect("a list").len(), 50);
+        assert!(found == wanted, "{angles}");
     }
 }
