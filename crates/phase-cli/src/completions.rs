@@ -1,9 +1,8 @@
 //! `completions`: a script with which a shell completes commands and options.
 
-use crate::{context::Context, error::CliError};
+use crate::{console::print_text, context::Context, error::CliError};
 use clap::Args;
 use clap_complete::{Shell, generate};
-use std::io::Write;
 
 /// Options of `completions`.
 #[derive(Args, Debug)]
@@ -15,13 +14,11 @@ pub struct Completions {
 /// Runs the command: the script goes to stdout.
 ///
 /// # Errors
-/// None at present; the reader of the script may stop at any time.
+/// [`CliError::Stdout`].
 pub fn run(arguments: &Completions, context: &Context) -> Result<(), CliError> {
     let mut command = (context.program.interface)();
     let name = command.get_name().to_owned();
     let mut script = Vec::new();
     generate(arguments.shell, &mut command, name, &mut script);
-    // A closed pipe is not a failure.
-    let _ = std::io::stdout().write_all(&script);
-    Ok(())
+    print_text(&String::from_utf8_lossy(&script))
 }

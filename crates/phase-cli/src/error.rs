@@ -1,11 +1,11 @@
 //! Every way in which a command can fail, and its exit code.
 
 use crate::program::Failure;
-use phase_files::{FileError, WriteError};
+use phase_files::{FileError, WriteError, plain_reason};
 use phase_model::EventKind;
 use phase_runs::error::{Fault, RunError};
 use phase_sampler::SampleError;
-use std::path::PathBuf;
+use std::{io, path::PathBuf};
 use thiserror::Error;
 
 /// Why a command failed. The text is one plain sentence.
@@ -20,6 +20,9 @@ pub enum CliError {
     /// The output cannot be written to the given path.
     #[error(transparent)]
     Output(WriteError),
+    /// The result cannot be written to stdout.
+    #[error("the result cannot be written to stdout: {}", plain_reason(.0))]
+    Stdout(#[source] io::Error),
     /// An option is not compatible with the input.
     #[error("{0}")]
     Usage(String),
@@ -102,7 +105,7 @@ impl Failure for CliError {
             | Self::NotBuilt { .. }
             | Self::NoScene { .. }
             | Self::Usage(_) => 2,
-            Self::Sample(_) | Self::Serialise { .. } => 1,
+            Self::Sample(_) | Self::Serialise { .. } | Self::Stdout(_) => 1,
             #[cfg(feature = "serve")]
             Self::Serve(error) => match error {
                 phase_serve::ServeError::Random(_) | phase_serve::ServeError::Runtime(_) => 1,

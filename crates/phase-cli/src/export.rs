@@ -3,6 +3,7 @@
 use crate::{context::Context, error::CliError, interrupt, output::Output};
 use clap::{Args, value_parser};
 use phase_runs::export::{Exported, export};
+use phase_files::told;
 use serde_json::json;
 use std::path::PathBuf;
 
@@ -42,5 +43,5 @@ pub fn run(arguments: &Export, context: &Context) -> Result<(), CliError> {
     } else {
         format!("{} holds this export already", out.display())
     };
-    arguments.output.print(text, &json!({ "folder": out, "files": files, "new": is_new }))
+    arguments.output.print(text, &json!({ "folder": told(out), "files": files, "new": is_new }))
 }

@@ -24,8 +24,7 @@ pub fn run(arguments: &ManPages, context: &Context) -> Result<(), CliError> {
     let mut command = (context.program.interface)();
     command.build();
     let pages = write(out, &command)?;
-    print_result(format!("{pages} pages in {}", out.display()));
-    Ok(())
+    print_result(format!("{pages} pages in {}", out.display()))
 }
 
 /// Writes the page of a command and those of the commands below it, and returns how many there are.

@@ -1,7 +1,11 @@
 //! The result of a command: text for people, or one JSON object for programs.
 
-use crate::{console::print_result, error::CliError};
+use crate::{
+    console::{print_result, print_text},
+    error::CliError,
+};
 use clap::Args;
+use phase_model::foreign;
 use serde::Serialize;
 use std::fmt::Display;
 
@@ -17,23 +21,21 @@ impl Output {
     /// Prints a result, as text without the white space at its end or as JSON.
     ///
     /// # Errors
-    /// [`CliError::Serialise`].
+    /// [`CliError::Serialise`] or [`CliError::Stdout`].
     pub fn print(self, text: impl Display, value: &impl Serialize) -> Result<(), CliError> {
         if self.json {
             return print_json(value);
         }
-        print_result(text.to_string().trim_end());
-        Ok(())
+        print_result(text.to_string().trim_end())
     }
 }
 
 /// Prints a value as one JSON object.
 ///
 /// # Errors
-/// [`CliError::Serialise`].
+/// [`CliError::Serialise`] or [`CliError::Stdout`].
 pub fn print_json(value: &impl Serialize) -> Result<(), CliError> {
-    print_result(json_text(value, "the result")?.trim_end());
-    Ok(())
+    print_text(&foreign::json(&json_text(value, "the result")?))
 }
 
 /// A value as the text of a JSON file, its last line ended. `what` names it in errors.

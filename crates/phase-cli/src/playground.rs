@@ -2,7 +2,7 @@
 
 use crate::{console::print_result, context::Context, error::CliError};
 use clap::Args;
-use phase_files::{FileError, Problem, WriteError, atomic};
+use phase_files::{WriteError, atomic, regular};
 use phase_web::WASM;
 use std::{
     fs,
@@ -50,8 +50,7 @@ pub fn run(arguments: &Playground, context: &Context) -> Result<(), CliError> {
         bytes as f64 / 1e6,
         out.display(),
         out.display()
-    ));
-    Ok(())
+    ))
 }
 
 /// The two files of a folder, in the order of [`WASM`].
@@ -59,10 +58,6 @@ pub fn run(arguments: &Playground, context: &Context) -> Result<(), CliError> {
 /// # Errors
 /// [`CliError::File`].
 pub fn read_wasm(folder: &Path) -> Result<[Vec<u8>; 2], CliError> {
-    let file = |name: &str| {
-        let file = folder.join(name);
-        fs::read(&file)
-            .map_err(|error| CliError::File(FileError { file, problem: Problem::Unreadable(error) }))
-    };
+    let file = |name: &str| regular::bytes(&folder.join(name));
     Ok([file(WASM[0])?, file(WASM[1])?])
 }

@@ -3,8 +3,10 @@
 use crate::{
     console::print_message,
     context::{Context, Program, Verbosity},
+    error::CliError,
 };
 use clap::{Parser, error::ErrorKind};
+use phase_model::foreign;
 use std::{error::Error, ffi::OsString, process::ExitCode};
 
 /// The commands of a program.
@@ -57,16 +59,19 @@ pub fn run_with<I: Interface>(
             interface.run(&context).map_err(|error| {
                 let causes = if context.verbosity.verbose { causes(&error) } else { Vec::new() };
                 let exit_code = error.exit_code();
-                Failed { sentence: error.to_string(), causes, exit_code, usage: false }
+                let sentence = foreign::message(&error.to_string()).into_owned();
+                Failed { sentence, causes, exit_code, usage: false }
             })
         }
         Err(error) if !error.use_stderr() => {
-            // Help or version was requested; a closed pipe is not reported.
-            let _ = error.print();
-            Ok(())
+            // Help or version was requested.
+            error.print().map_err(|source| {
+                let sentence = CliError::Stdout(source).to_string();
+                Failed { sentence, causes: Vec::new(), exit_code: 1, usage: false }
+            })
         }
         Err(error) => {
-            let sentence = one_sentence(&error);
+            let sentence = foreign::message(&one_sentence(&error)).into_owned();
             Err(Failed { sentence, causes: Vec::new(), exit_code: 2, usage: true })
         }
     }

@@ -3,6 +3,7 @@
 
 use crate::console::print_message;
 use indicatif::{ProgressBar, ProgressState, ProgressStyle};
+use phase_model::foreign;
 use std::{
     fmt::Write,
     io::IsTerminal,
@@ -88,7 +89,7 @@ impl Progress {
                 };
                 bar.set_style(style.with_key("times", write));
             }
-            bar.set_message(activity.to_owned());
+            bar.set_message(foreign::message(activity).into_owned());
             bar.enable_steady_tick(TICK);
             bar.tick();
             bar
@@ -119,7 +120,7 @@ impl Progress {
         match &self.bar {
             Some(bar) => {
                 bar.inc(self.steps_each.saturating_sub(counted) as u64);
-                bar.println(text);
+                bar.println(foreign::message(&text));
             }
             None if self.quiet => {}
             None => print_message(&text),

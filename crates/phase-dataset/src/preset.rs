@@ -5,6 +5,7 @@ use phase_event::check_id;
 use phase_files::{FileError, Problem};
 use phase_model::{
     Layout, Relation,
+    json::parse_as,
     layout::USED_BASES,
     random::{self, Purpose},
 };
@@ -165,11 +166,11 @@ impl Preset {
     ///
     /// # Errors
     /// If the text is not a preset, lists no events, or names layouts that do not exist.
-    pub fn parse(name: &str, text: &str) -> Result<Self, FileError> {
+    pub fn parse(name: impl AsRef<Path>, text: &str) -> Result<Self, FileError> {
         let what = "preset";
-        let fail = |problem| FileError { file: Path::new(name).to_owned(), problem };
+        let fail = |problem| FileError { file: name.as_ref().to_owned(), problem };
         let preset: Self =
-            serde_json::from_str(text).map_err(|source| fail(Problem::Incomplete { what, source }))?;
+            parse_as(text).map_err(|source| fail(Problem::Incomplete { what, source }))?;
         preset.check().map_err(|rule| fail(Problem::Shape { what, rule }))?;
         Ok(preset)
     }

@@ -10,19 +10,21 @@ use phase_files::{
     FileError, Problem, WriteError,
     atomic::{self, AtomicFile},
     checksum::FileEntry,
-    json,
+    json, regular,
 };
-use phase_model::json::check_format;
+use phase_model::json::{check_format, parse_as};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use std::{
     fs::File,
-    io::{BufRead, BufReader, Seek, SeekFrom, Write},
+    io::{BufRead, BufReader, Read, Seek, SeekFrom, Write},
     path::{Path, PathBuf},
 };
 
 /// The value of the field `format` of shards.
 pub const SHARD_FORMAT: &str = "phase-shard/3";
+/// Longest record of a slot (bytes), which has a line for each scene that was refused.
+const LONGEST_RECORD: u64 = 1 << 28;
 /// The shard's file name. It is written last: a folder with it is complete.
 pub const SHARD_FILE: &str = "shard.json";
 /// File name of the records of a shard's slots: one a line, as JSON.
@@ -173,19 +175,19 @@ impl SlotReader {
         let fail = |problem| FileError { file: self.file.clone(), problem };
         let what = "list of slots";
         let mut line = String::new();
-        let read = |line: &mut String| {
-            let mut file = File::open(&self.file)?;
+        let read = |mut file: File, line: &mut String| {
             file.seek(SeekFrom::Start(self.offset))?;
-            BufReader::new(file).read_line(line)
+            BufReader::new(file.take(LONGEST_RECORD)).read_line(line)
         };
-        let bytes = read(&mut line).map_err(|error| fail(Problem::Unreadable(error)))?;
+        let bytes =
+            read(regular::open(&self.file)?, &mut line).map_err(|error| fail(Problem::Unreadable(error)))?;
         if bytes == 0 {
             let rule = format!("the records of {} slots are missing", self.slots.len() + 1);
             return Err(fail(Problem::Shape { what, rule }));
         }
         self.offset += bytes as u64;
         let record: SlotRecord =
-            serde_json::from_str(&line).map_err(|source| fail(Problem::Incomplete { what, source }))?;
+            parse_as(&line).map_err(|source| fail(Problem::Incomplete { what, source }))?;
         let id = slot_id(&self.preset, slot);
         let rule = if !record.is_filled() {
             format!("the slot {id} holds no event")

@@ -5,7 +5,8 @@ use crate::{
     event_set::{SetEntry, member_id, set_video_path},
     manifest::{EventEntry, event_path, video_path},
 };
-use phase_files::{FileError, Problem, WriteError, atomic, checksum::FileEntry};
+use phase_files::{FileError, Problem, WriteError, atomic, checksum::FileEntry, regular};
+use phase_model::json::parse_as;
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 
@@ -35,8 +36,8 @@ impl SlotRecord {
     /// The record in a file, or an empty one if there is no valid one; the slot then starts over.
     #[must_use]
     pub fn load(path: &Path, fingerprint: &str) -> Self {
-        let text = std::fs::read_to_string(path).unwrap_or_default();
-        serde_json::from_str(&text)
+        let text = regular::text(path).unwrap_or_default();
+        parse_as(&text)
             .ok()
             .filter(|record: &Self| record.fingerprint == fingerprint)
             .unwrap_or_else(|| Self { fingerprint: fingerprint.into(), ..Self::default() })

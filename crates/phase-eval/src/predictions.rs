@@ -2,7 +2,7 @@
 
 use crate::{
     goals::{Answer, canonical},
-    trajectories::PREDICTED_STEPS,
+    trajectories::{PREDICTED_STEPS, WATCHED_STEPS},
 };
 use phase_event::{EventReadError, Prediction};
 use phase_model::{
@@ -15,16 +15,69 @@ use std::collections::BTreeMap;
 /// Most futures that a prediction may have; their distances are compared in pairs.
 pub const MAX_FUTURES: usize = 200;
 
+/// The members of an event: those of predictions for either task, and those of results.
+const OF_EVENT: [&str; 18] = [
+    "id",
+    "goals",
+    "relation",
+    "roles",
+    "reported",
+    "strengths",
+    "forecast",
+    "futures",
+    "watched_steps",
+    "label",
+    "watched",
+    "cpu_seconds",
+    "details",
+    "kind",
+    "steps",
+    "agents",
+    "entities",
+    "samples",
+];
+/// The members of a file: those of predictions, and those of results of either task.
+const OF_FILE: [&str; 28] = [
+    "events",
+    "method",
+    "watched_steps",
+    "predicted_steps",
+    "format",
+    "run",
+    "seed",
+    "n_events",
+    "intervals",
+    "kinds",
+    "goal",
+    "relation",
+    "layouts",
+    "watched",
+    "sets",
+    "roles",
+    "role_kinds",
+    "agreement",
+    "relation_agreement",
+    "confusion",
+    "calibration",
+    "ade",
+    "fde",
+    "ade_entities",
+    "fde_entities",
+    "samples",
+    "shorter",
+    "by_step",
+];
+
 /// Reads answers to Task 1 by the ids of their events:
 /// `{"events": [{"id", "goals": [[{"goal", "p"}…], […]],`
 /// `"relation": {"friendly", "adversarial", "neutral"}, "roles": {"helps": [p, p], "hinders": [p, p]}}…]}`,
 /// where `roles`, the probabilities that either agent helps or hinders the other, may be absent, and so may
-/// `reported`, the shares of people who would report each relation, of the form of `relation`. Other members
-/// are ignored, so results of PHASE are valid predictions too.
+/// `reported`, the shares of people who would report each relation, of the form of `relation`. The members of
+/// results are known too, so results of PHASE are valid predictions; names that begin with `_` are free.
 ///
 /// # Errors
-/// If there is no event, one occurs twice, a field is missing or of the wrong type, or a probability is
-/// invalid.
+/// If there is no event, one occurs twice, a field is missing, unknown or of the wrong type, or a probability
+/// is invalid.
 pub fn goals(value: &Value) -> Result<BTreeMap<String, Answer>, EventReadError> {
     by_id(value, |event, id| {
         let judgement = judgement(event).map_err(|problem| of_event(id, problem))?;
@@ -36,14 +89,30 @@ pub fn goals(value: &Value) -> Result<BTreeMap<String, Answer>, EventReadError> 
 
 /// Reads answers to Task 2 by the ids of their events:
 /// `{"events": [{"id", "forecast": [[[x, y], …steps] …entities], "futures": [forecast…]}…]}`, positions in u,
-/// where `futures`, equally likely ones, may be absent. Other members are ignored, so results of PHASE are
-/// valid predictions too. Whether a forecast has the shape of its event is checked by [`fit`].
+/// where `futures`, equally likely ones, may be absent. The file or an event may say after how many steps
+/// the forecasts were made, `watched_steps`, and the file for how many, `predicted_steps`. The members of
+/// results are known too, so results of PHASE are valid predictions; names that begin with `_` are free.
+/// Whether a forecast has the shape of its event is checked by [`fit`].
 ///
 /// # Errors
-/// If there is no event, one occurs twice, a field is missing or of the wrong type, or a number is not
-/// finite.
+/// If there is no event, one occurs twice, a field is missing, unknown or of the wrong type, a number is not
+/// finite, or the forecasts are of other steps than those that are scored.
 pub fn forecasts(value: &Value) -> Result<BTreeMap<String, Prediction>, EventReadError> {
+    let file = Field::root(value);
+    scored_steps(&file, "watched_steps", WATCHED_STEPS)
+        .and_then(|()| scored_steps(&file, "predicted_steps", PREDICTED_STEPS))
+        .map_err(|problem| EventReadError::Field { event: None, problem })?;
     by_id(value, |event, id| prediction(event).map_err(|problem| of_event(id, problem)))
+}
+
+/// Checks a number of steps of a forecast, if it is told.
+fn scored_steps(field: &Field<'_>, key: &str, scored: usize) -> Result<(), FieldError> {
+    match field.optional(key)? {
+        Some(told) if told.value().as_u64() != Some(scored as u64) => {
+            Err(told.must_be(&format!("{scored}, as in the forecasts that are scored")))
+        }
+        _ => Ok(()),
+    }
 }
 
 /// The parts of a prediction for an event; see [`fit`].
@@ -106,12 +175,14 @@ fn by_id<A>(
     read: impl Fn(&Field<'_>, &str) -> Result<A, EventReadError>,
 ) -> Result<BTreeMap<String, A>, EventReadError> {
     let of_file = |problem| EventReadError::Field { event: None, problem };
-    let events = Field::root(value).required("events").map_err(of_file)?;
+    let file = Field::root(value);
+    let events = file.only(&OF_FILE).and_then(|()| file.required("events")).map_err(of_file)?;
     let mut answers = BTreeMap::new();
     for (k, event) in events.array().map_err(of_file)?.iter().enumerate() {
         let event = Field::root(event);
         let id = event.required("id").and_then(|id| id.text());
         let id = id.map_err(|problem| of_event(&format!("number {}", k + 1), problem))?;
+        event.only(&OF_EVENT).map_err(|problem| of_event(id, problem))?;
         if answers.insert(id.to_owned(), read(&event, id)?).is_some() {
             return Err(EventReadError::DuplicateId(id.into()));
         }
@@ -124,6 +195,7 @@ fn of_event(id: &str, problem: FieldError) -> EventReadError {
 }
 
 fn prediction(event: &Field<'_>) -> Result<Prediction, FieldError> {
+    scored_steps(event, "watched_steps", WATCHED_STEPS)?;
     let samples = event.optional("futures")?.map_or_else(
         || Ok(Vec::new()),
         |futures| {

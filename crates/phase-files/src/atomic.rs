@@ -1,6 +1,6 @@
 //! Files that are complete or absent: written to a temporary file, synced, renamed.
 
-use crate::{WriteError, fault, private};
+use crate::{WriteError, fault, private, regular};
 use serde::Serialize;
 use std::{
     ffi::OsString,
@@ -64,7 +64,7 @@ pub fn remove_abandoned(path: &Path) {
         if !is_part {
             continue;
         }
-        if let Ok(file) = File::open(entry.path())
+        if let Ok(file) = regular::open(&entry.path())
             && file.try_lock().is_ok()
         {
             // One that cannot be removed is harmless. It stays locked meanwhile, so that nobody takes it for
@@ -172,10 +172,14 @@ pub fn is_part(name: &str) -> bool {
 /// Creates the temporary file of a path, and locks it. Between its creation and its lock [`remove_abandoned`]
 /// can take it for abandoned; then another one is created.
 fn create_locked(path: &Path, mut options: OpenOptions) -> io::Result<(PathBuf, File)> {
-    options.write(true).create(true).truncate(true);
+    options.write(true).create_new(true);
     loop {
         let part = part_path(path);
-        let file = options.open(&part)?;
+        // What somebody else has put there is not written to.
+        let file = match options.open(&part) {
+            Err(error) if error.kind() == io::ErrorKind::AlreadyExists => continue,
+            opened => opened?,
+        };
         match file.try_lock() {
             // Somebody is removing it.
             Err(TryLockError::WouldBlock) => {}

@@ -3,7 +3,7 @@
 //! No other module knows the encoding. An entry that is foreign, damaged, or of another program or other
 //! settings is no error: it is ignored, and the result is computed again.
 
-use crate::{WriteError, atomic, checksum::sha256};
+use crate::{WriteError, atomic, checksum::sha256, regular};
 use serde::{Serialize, de::DeserializeOwned};
 use std::path::{Path, PathBuf};
 
@@ -30,7 +30,7 @@ impl Cache {
     /// The result stored under an id and seed, if there is a valid one.
     #[must_use]
     pub fn load<T: DeserializeOwned>(&self, id: &str, seed: u64) -> Option<T> {
-        let bytes = std::fs::read(self.path(id)).ok()?;
+        let bytes = regular::bytes(&self.path(id)).ok()?;
         let payload = bytes.strip_prefix(&self.head(id, seed)[..])?;
         let (sum, payload) = payload.split_first_chunk::<32>()?;
         if *sum != sha256(payload) {

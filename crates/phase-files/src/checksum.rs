@@ -1,12 +1,12 @@
 //! Sizes and SHA-256 checksums of files.
 
-use crate::{FileError, Problem};
+use crate::{FileError, Problem, regular};
 use phase_model::path::RelativePath;
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 use std::{
     fmt::Write as _,
-    fs::{self, File},
+    fs::File,
     io::{self, Read},
     path::Path,
 };
@@ -91,14 +91,16 @@ pub fn hexadecimal(bytes: &[u8]) -> String {
     })
 }
 
-/// Size and checksum. Only of files: to open a pipe would wait for whoever writes into it.
+/// Size and checksum.
 fn digest(path: &Path) -> Result<(u64, String), Problem> {
-    let is_file = fs::metadata(path).map_err(Problem::Unreadable)?.is_file();
-    if is_file { digest_of(path).map_err(Problem::Unreadable) } else { Err(Problem::NoFile) }
+    match regular::open(path) {
+        Ok(file) => digest_of(file).map_err(Problem::Unreadable),
+        Err(FileError { problem: Problem::IsFolder, .. }) => Err(Problem::NoFile),
+        Err(error) => Err(error.problem),
+    }
 }
 
-fn digest_of(path: &Path) -> io::Result<(u64, String)> {
-    let mut file = File::open(path)?;
+fn digest_of(mut file: File) -> io::Result<(u64, String)> {
     let mut hasher = Sha256::new();
     let mut buffer = vec![0; 1 << 16];
     let mut bytes = 0;

@@ -1,6 +1,6 @@
 //! Errors of files: each names the file and says in one plain sentence what is wrong with it.
 
-use phase_model::{json::JsonError, path::PathError};
+use phase_model::{foreign, json::JsonError, path::PathError};
 use std::{
     io,
     path::{Path, PathBuf},
@@ -9,7 +9,7 @@ use thiserror::Error;
 
 /// A file that cannot be used, and why. The text names the file first.
 #[derive(Debug, Error)]
-#[error("{}: {problem}", file.display())]
+#[error("{}: {problem}", shown(file))]
 pub struct FileError {
     /// The file.
     pub file: PathBuf,
@@ -34,7 +34,7 @@ pub enum Problem {
     #[error(transparent)]
     Content(Box<dyn core::error::Error + Send + Sync>),
     /// It is JSON of the right format, but some of it is missing, unknown or of the wrong type.
-    #[error("is no complete {what}: {source}")]
+    #[error("is no complete {what}: {}", foreign::sentence(&source.to_string()))]
     Incomplete {
         /// The kind of file that was expected, such as `dataset manifest`.
         what: &'static str,
@@ -55,6 +55,12 @@ pub enum Problem {
     /// It is not a regular file, but a folder, a pipe or something else.
     #[error("is not a file")]
     NoFile,
+    /// It is larger than files of its kind are.
+    #[error("is larger than {largest} bytes")]
+    TooLarge {
+        /// The largest file that is read (bytes).
+        largest: u64,
+    },
     /// It is a link, which may stand for different files at different times.
     #[error("is a link; a dataset holds files")]
     Link,
@@ -68,7 +74,7 @@ pub enum Problem {
 
 /// A file or folder that cannot be written. The text names it first.
 #[derive(Debug, Error)]
-#[error("{}: cannot {action}: {}", path.display(), plain_reason(source))]
+#[error("{}: cannot {action}: {}", shown(path), plain_reason(source))]
 pub struct WriteError {
     /// The file or folder.
     pub path: PathBuf,
@@ -95,9 +101,30 @@ impl WriteError {
     }
 }
 
+/// A path for a message. Others may have named what is there, in any bytes.
+#[must_use]
+pub fn shown(path: &Path) -> String {
+    foreign::sentence(&path.to_string_lossy()).into_owned()
+}
+
+/// A path as results for programs have it: as text, in which bytes that are none are U+FFFD. A file is never
+/// looked for under it.
+#[must_use]
+pub fn told(path: &Path) -> String {
+    path.to_string_lossy().into_owned()
+}
+
+/// Serialises a path as [`told`]: by itself one that is no text has no form in JSON.
+///
+/// # Errors
+/// Those of the serialiser.
+pub fn serialize_told<S: serde::Serializer>(path: &Path, serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.serialize_str(&path.to_string_lossy())
+}
+
 /// The system's error message without its number.
 #[must_use]
-pub(crate) fn plain_reason(error: &io::Error) -> String {
+pub fn plain_reason(error: &io::Error) -> String {
     let text = error.to_string();
     text.split(" (os error").next().unwrap_or_default().to_lowercase()
 }

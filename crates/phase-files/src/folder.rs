@@ -2,10 +2,11 @@
 
 use crate::{
     WriteError, atomic,
-    error::plain_reason,
+    error::{plain_reason, shown},
     fault, json, private,
     run::{self, RUN_FORMAT, Run},
 };
+use phase_model::foreign;
 use serde_json::Value;
 use std::{
     fs::{self, File, OpenOptions, TryLockError},
@@ -36,10 +37,10 @@ pub enum Contents {
 #[derive(Debug, Error)]
 pub enum FolderError {
     /// There is a file of this name.
-    #[error("{}: is a file; the output needs a folder", .0.display())]
+    #[error("{}: is a file; the output needs a folder", shown(.0))]
     IsFile(PathBuf),
     /// It contains files that no run has written.
-    #[error("{}: contains other files ({entry}); choose an empty or a new folder", path.display())]
+    #[error("{}: contains other files ({}); choose an empty or a new folder", shown(path), foreign::name(entry))]
     Foreign {
         /// The folder.
         path: PathBuf,
@@ -47,7 +48,7 @@ pub enum FolderError {
         entry: String,
     },
     /// It cannot be read.
-    #[error("{}: cannot be read: {}", path.display(), plain_reason(source))]
+    #[error("{}: cannot be read: {}", shown(path), plain_reason(source))]
     Unreadable {
         /// The folder.
         path: PathBuf,
@@ -58,7 +59,7 @@ pub enum FolderError {
     #[error(transparent)]
     NotWritable(#[from] WriteError),
     /// It belongs to a run with other options.
-    #[error("{}: holds {state} run of another kind ({difference}); choose another folder or remove it", path.display())]
+    #[error("{}: holds {state} run of another kind ({}); choose another folder or remove it", shown(path), foreign::sentence(difference))]
     OtherRun {
         /// The folder.
         path: PathBuf,
@@ -68,10 +69,10 @@ pub enum FolderError {
         difference: String,
     },
     /// It belongs to a run of an earlier version, whose description cannot be compared.
-    #[error("{}: holds a run of an earlier version of PHASE, which this one cannot continue; choose a new folder with --out", .0.display())]
+    #[error("{}: holds a run of an earlier version of PHASE, which this one cannot continue; choose a new folder with --out", shown(.0))]
     EarlierRun(PathBuf),
     /// Another run is writing into it right now.
-    #[error("{}: is in use by another run; wait for it to finish or choose another folder", .0.display())]
+    #[error("{}: is in use by another run; wait for it to finish or choose another folder", shown(.0))]
     Busy(PathBuf),
 }
 
@@ -155,7 +156,12 @@ impl Lock {
 
     fn take_with(path: &Path, mut options: OpenOptions) -> Result<Self, FolderError> {
         let failed = |action, source| WriteError { path: path.to_owned(), action, source };
-        let file = options.create(true).write(true).truncate(false).open(path.join(LOCK));
+        let lock = path.join(LOCK);
+        // To open a pipe would wait for whoever reads it.
+        if fs::symlink_metadata(&lock).is_ok_and(|about| !about.is_file()) {
+            return Err(FolderError::Foreign { path: path.to_owned(), entry: LOCK.to_owned() });
+        }
+        let file = options.create(true).write(true).truncate(false).open(lock);
         let file = file.map_err(|source| failed("write into the folder", source))?;
         match file.try_lock() {
             Ok(()) => Ok(Self { _file: file }),

@@ -1,6 +1,6 @@
 //! Files of JSON.
 
-use crate::{FileError, Problem};
+use crate::{FileError, regular};
 use phase_model::json::parse;
 use serde_json::Value;
 use std::path::Path;
@@ -8,19 +8,16 @@ use std::path::Path;
 /// Reads a whole file as JSON.
 ///
 /// # Errors
-/// Any of [`Problem::IsFolder`], [`Problem::Unreadable`] and [`Problem::Json`].
+/// Those of [`bytes`], and [`Problem::Json`](crate::Problem::Json).
 pub fn read(path: &Path) -> Result<Value, FileError> {
     parse(&bytes(path)?).map_err(|error| FileError { file: path.to_owned(), problem: error.into() })
 }
 
-/// Reads a whole file, whatever its contents.
+/// Reads a whole file, whatever its contents; see [`regular::bytes`].
 ///
 /// # Errors
-/// [`Problem::IsFolder`] or [`Problem::Unreadable`].
+/// [`Problem::IsFolder`](crate::Problem::IsFolder), [`Problem::NoFile`](crate::Problem::NoFile),
+/// [`Problem::TooLarge`](crate::Problem::TooLarge) or [`Problem::Unreadable`](crate::Problem::Unreadable).
 pub fn bytes(path: &Path) -> Result<Vec<u8>, FileError> {
-    let fail = |problem| FileError { file: path.to_owned(), problem };
-    if path.is_dir() {
-        return Err(fail(Problem::IsFolder));
-    }
-    std::fs::read(path).map_err(|error| fail(Problem::Unreadable(error)))
+    regular::bytes(path)
 }

@@ -5,7 +5,7 @@
 //! - [`folder`] locks a folder and records which run it belongs to; [`cache`] keeps results of an interrupted
 //!   run.
 //! - [`run`] says which run it is, and hashes its description; two runs are compared by it.
-//! - [`json`] reads files of JSON.
+//! - [`regular`] reads files, and only those that are regular; [`json`] reads files of JSON.
 //! - [`fault`] interrupts a program, on demand, at any step of writing.
 //! - [`FileError`] and [`WriteError`] name the file and what is wrong with it in one plain sentence.
 //!
@@ -47,6 +47,7 @@ pub mod folder;
 pub mod json;
 pub mod measured;
 pub mod private;
+pub mod regular;
 pub mod run;
 
-pub use error::{FileError, Problem, WriteError};
+pub use error::{FileError, Problem, WriteError, plain_reason, serialize_told, shown, told};

@@ -45,6 +45,7 @@
 pub mod action;
 pub mod arena;
 pub mod entity;
+pub mod foreign;
 pub mod geometry;
 pub mod goal;
 pub mod id;

@@ -37,7 +37,7 @@ impl PageSimulation {
     /// A sentence that names the field and the rule.
     pub fn new(scene: &str, seed: u64, options: &str) -> Result<Self, String> {
         let scene = scenes::read(scene)?;
-        let options: Options = serde_json::from_str(options).map_err(sentence)?;
+        let options: Options = phase_model::json::parse_as(options).map_err(sentence)?;
         let minds =
             options.minds.map_or_else(|| Ok(MindParameters::default()), MindParameters::from_overrides);
         let default = SimulationSettings::default();

@@ -137,7 +137,7 @@ impl EventWriter {
             recording.relation = relation;
         }
         let text = phase_event::to_json(&[recording])?;
-        let there = std::fs::read(&job.json).is_ok_and(|bytes| bytes == text.as_bytes());
+        let there = phase_files::regular::bytes(&job.json).is_ok_and(|bytes| bytes == text.as_bytes());
         if there { Ok(()) } else { Ok(atomic::write(&job.json, text.as_bytes())?) }
     }
 }

@@ -13,6 +13,7 @@ use phase_files::{
     atomic::{self, AtomicFile},
     checksum::FileEntry,
     folder::{self, Contents, Folder},
+    regular,
     run::Run,
 };
 use serde_json::{Value, json};
@@ -133,6 +134,5 @@ fn append(tar: &mut Builder<AtomicFile>, name: &str, bytes: &[u8]) -> std::io::R
 /// The bytes of a file that is as its dataset's manifest says.
 fn whole(from: &Path, file: &FileEntry) -> Result<Vec<u8>, RunError> {
     file.verify(from).map_err(RunError::Altered)?;
-    let path = file.place(from);
-    fs::read(&path).map_err(|error| FileError { file: path, problem: Problem::Unreadable(error) }.into())
+    Ok(regular::bytes(&file.place(from))?)
 }

@@ -74,7 +74,7 @@ impl ReportModel {
     /// # Errors
     /// [`ReportModelError`].
     pub fn from_json(text: &str) -> Result<Self, ReportModelError> {
-        let model: Self = serde_json::from_str(text)?;
+        let model: Self = phase_model::json::parse_as(text)?;
         if model.format != REPORT_MODEL_FORMAT {
             return Err(ReportModelError::Format);
         }

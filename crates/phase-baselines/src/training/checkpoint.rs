@@ -95,7 +95,7 @@ impl<N: Network> TrainingRun<N> {
         let file = TensorFile::open(bytes, FIELD)?;
         let missing = || TensorsError::Kind { field: FIELD, expected: "a training's state".into() };
         let said = file.metadata_value().ok_or_else(missing)?;
-        let said: CheckpointMetadata = serde_json::from_str(said)?;
+        let said: CheckpointMetadata = phase_model::json::parse_as(said)?;
         let theirs = &said.of;
         let ours = self.checkpoint_of(data);
         let differences = [

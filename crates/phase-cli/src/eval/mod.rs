@@ -55,8 +55,9 @@ pub(crate) const fn require_networks(context: &Context) -> Result<(), CliError> 
 /// Prints the table, writes the results to the other requested places, and says where the report is.
 fn announce<A>(done: Option<Evaluated<A>>, arguments: &Common) -> Result<(), CliError> {
     let Some(done) = done else {
-        print_result("this part is done; give the same command with --merge and the folders of all parts");
-        return Ok(());
+        return print_result(
+            "this part is done; give the same command with --merge and the folders of all parts",
+        );
     };
     if arguments.json.as_deref() == Some(Path::new(STDOUT)) {
         return print_json(&done.results);
@@ -65,14 +66,13 @@ fn announce<A>(done: Option<Evaluated<A>>, arguments: &Common) -> Result<(), Cli
         let text = json_text(&done.results, "the results")?;
         atomic::write(path, text.as_bytes()).map_err(CliError::Output)?;
     }
-    print_result(done.document.first_table().trim_end());
+    print_result(done.document.first_table().trim_end())?;
     let folder = &done.folder;
     print_result(if done.is_new {
         format!("{}; report in {}", words::events(done.events.len()), folder.join(REPORT_FILE).display())
     } else {
         format!("{} holds this evaluation already", folder.display())
-    });
-    Ok(())
+    })
 }
 
 /// Checks before hours of work that the folder of the file to be written at the end exists.

@@ -12,6 +12,7 @@ use phase_runs::{
     words,
 };
 use serde_json::json;
+use phase_files::told;
 use std::path::{Path, PathBuf};
 
 /// Runs `gen-dataset`.
@@ -43,12 +44,12 @@ fn announce(generated: &Generated, output: Output, more: &str) -> Result<(), Cli
         Outcome::Made(completed) => announce_new(out, completed, output, more),
         Outcome::MadeShard(shard, of) => {
             let text = format!("{} in {place}; merge all {of} shards with merge", words::events(*events));
-            let value = json!({ "folder": out, "events": events, "shard": shard, "of": of, "new": true });
+            let value = json!({ "folder": told(out), "events": events, "shard": shard, "of": of, "new": true });
             output.print(text, &value)
         }
         Outcome::Kept(what) => {
             let text = format!("{place} holds this {what} already; all {events} events are whole\n");
-            let value = json!({ "folder": out, "events": events, "page": page(out), "new": false });
+            let value = json!({ "folder": told(out), "events": events, "page": page(out).as_deref().map(told), "new": false });
             output.print(text + &page_line(out), &value)
         }
     }
@@ -64,7 +65,7 @@ fn announce_new(out: &Path, completed: &Completed, output: Output, more: &str) -
     text += &format!("{events} in {}\nSHA-256 of {MANIFEST_FILE}: {digest}\n", out.display());
     text += &format!("{}{more}", page_line(out));
     let value = json!({
-        "folder": out, "events": overview.events, "seed": overview.seed, "page": page(out),
+        "folder": told(out), "events": overview.events, "seed": overview.seed, "page": page(out).as_deref().map(told),
         "selection": overview.selection, "manifest_sha256": digest, "new": true,
     });
     output.print(text, &value)

@@ -8,7 +8,7 @@ mod text;
 
 use crate::{context::Context, error::CliError};
 use options::NewScene;
-use phase_files::atomic;
+use phase_files::{atomic, told};
 use phase_model::{Layout, Scene, layout::USED_BASES, random};
 use phase_sampler::{Request, Variant, sample};
 use serde_json::json;
@@ -30,7 +30,7 @@ pub fn run(arguments: &NewScene, context: &Context) -> Result<(), CliError> {
     let next =
         format!("{} simulate --events {} --out out/{}", context.program.name, out.display(), kind.name());
     let value = json!({
-        "file": out, "id": kind.name(), "kind": kind, "layout": scene.layout, "seed": arguments.seed,
+        "file": told(out), "id": kind.name(), "kind": kind, "layout": scene.layout, "seed": arguments.seed,
     });
     arguments
         .output

@@ -6,7 +6,7 @@ mod watch;
 use crate::{context::Context, error::CliError, interrupt};
 use options::{Belief, Render};
 use phase_event::{Recording, Row, SimulationRecord, Trajectory};
-use phase_files::{WriteError, atomic};
+use phase_files::{WriteError, atomic, serialize_told};
 use phase_model::{AgentId, State, arena::SUBSTEPS};
 use phase_render::Palette;
 use phase_runs::{
@@ -46,6 +46,11 @@ pub fn run(arguments: &Render, context: &Context) -> Result<(), CliError> {
     let made = make_all(arguments.jobs.threads(), source.len(), |index| {
         let recording = source.load(index)?;
         let path = target.path(&recording.id, arguments, extension);
+        if arguments.observer && is_same_file(&course_path(&path), &arguments.file) {
+            let file = arguments.file.display();
+            let rule = "is read, and what an observer makes of it would be written there; choose another --out";
+            return Err(RunError::Usage(format!("{file}: {rule}")));
+        }
         let watched = match arguments.observer {
             true => match watch(&recording, arguments.seed, &requested)? {
                 Some(watched) => Some(watched),
@@ -72,6 +77,7 @@ pub fn run(arguments: &Render, context: &Context) -> Result<(), CliError> {
 #[derive(Serialize)]
 struct Rendered {
     id: String,
+    #[serde(serialize_with = "serialize_told")]
     file: PathBuf,
     /// Whether its frames between the recorded steps are interpolated.
     interpolated: bool,
@@ -83,6 +89,7 @@ struct Rendered {
 /// The file of what an observer made of an event.
 #[derive(Serialize)]
 struct ObserverCourse {
+    #[serde(serialize_with = "serialize_told")]
     file: PathBuf,
     /// Mean and greatest time that a step took (s).
     mean_step_seconds: f64,
@@ -91,9 +98,7 @@ struct ObserverCourse {
 
 impl ObserverCourse {
     fn write(video: &Path, id: &str, watched: Vec<Watched>) -> Result<Self, RunError> {
-        let name = video.file_stem().unwrap_or_default().to_string_lossy();
-        let name = name.strip_suffix(".observer").unwrap_or(&name);
-        let file = video.with_file_name(format!("{name}.observer.json"));
+        let file = course_path(video);
         let course = json!({ "format": OBSERVER_FORMAT, "id": id, "course": watched });
         atomic::write_json(&file, &course).map_err(RunError::Output)?;
         let took = watched.iter().map(|watched| watched.took);
@@ -103,6 +108,13 @@ impl ObserverCourse {
             slowest_step_seconds: took.fold(0.0, f64::max),
         })
     }
+}
+
+/// The file of an observer's course beside its video.
+fn course_path(video: &Path) -> PathBuf {
+    let stem = video.with_extension("");
+    let stem = if stem.extension().is_some_and(|it| it == "observer") { stem } else { video.to_owned() };
+    stem.with_extension("observer.json")
 }
 
 impl Rendered {
@@ -120,6 +132,11 @@ impl Rendered {
         }
         lines
     }
+}
+
+/// Whether two paths lead to one file, which is there.
+fn is_same_file(one: &Path, other: &Path) -> bool {
+    one.canonicalize().is_ok_and(|one| other.canonicalize().is_ok_and(|other| one == other))
 }
 
 /// The output paths of pictures.

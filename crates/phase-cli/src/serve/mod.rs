@@ -67,7 +67,7 @@ pub fn run(arguments: &Serve, context: &Context) -> Result<(), CliError> {
         "http://{address}/\n{studies}http://{address}/admin/#{} (for you alone)\nrecordings and journals in {}; Ctrl-C stops",
         server.admin_token(),
         arguments.out.display()
-    ));
+    ))?;
     Ok(server.run(stopped())?)
 }
 

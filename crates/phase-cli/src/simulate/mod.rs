@@ -12,6 +12,7 @@ use phase_runs::{
     simulate::{Simulated, Simulations},
     words,
 };
+use phase_files::told;
 use serde_json::json;
 
 /// Runs the command.
@@ -38,7 +39,7 @@ fn print(arguments: &Simulate, Simulated { summary, is_new }: &Simulated) -> Res
     let page = Some(out.join(PAGE_FILE)).filter(|page| page.exists());
     let open = page.as_ref().map_or_else(String::new, |it| format!("\nopen {} to watch them", it.display()));
     let value = json!({
-        "folder": out, "page": page, "new": is_new, "recorded": recorded,
+        "folder": told(out), "page": page.as_deref().map(told), "new": is_new, "recorded": recorded,
         "kinds": summary.kinds, "events": summary.events,
     });
     arguments.output.print(format!("{}\n{line}{open}", table.trim_end()), &value)

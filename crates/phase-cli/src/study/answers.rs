@@ -5,7 +5,7 @@ use super::{
     options::{BackupStudy, ExportStudy, ReportStudy},
 };
 use crate::{console::print_message, error::CliError};
-use phase_files::{WriteError, atomic, private};
+use phase_files::{WriteError, atomic, private, told};
 use phase_study::{
     analysis::{Analysis, document},
     config::StudyConfig,
@@ -90,7 +90,7 @@ pub(super) fn export(arguments: &ExportStudy) -> Result<(), CliError> {
     }
     let paths: Vec<&str> = files.iter().map(|file| file.path.as_str()).collect();
     let rated_file = (rated > 0).then_some(&file);
-    let value = json!({ "folder": out, "files": paths, "ratings": rated_file, "rated": rated });
+    let value = json!({ "folder": told(out), "files": paths, "ratings": rated_file.map(|file| told(file)), "rated": rated });
     let mut text = format!("{} files in {}", files.len(), out.display());
     if rated > 0 {
         text += &format!("\nratings of {rated} events for eval goals --ratings in {}", file.display());

@@ -2,11 +2,10 @@
 
 use super::options::CheckStudy;
 use crate::{context::Context, error::CliError};
-use phase_files::{FileError, Problem, json};
+use phase_files::{FileError, Problem, json, regular, told};
 use phase_study::{config::StudyConfig, forms::Forms};
 use serde_json::json;
 use std::{
-    fs::File,
     io::Read as _,
     path::{Path, PathBuf},
 };
@@ -48,7 +47,7 @@ pub(super) fn run(arguments: &CheckStudy, context: &Context) -> Result<(), CliEr
     }
     let judgements = u64::from(config.raters) * u64::from(config.videos_per_rater);
     let value = json!({
-        "file": arguments.config, "name": config.name, "form": config.form.name(),
+        "file": told(&arguments.config), "name": config.name, "form": config.form.name(),
         "videos": config.stimuli.len(),
         "sources": config.sources(), "catch_trials": config.catch_trials.len(), "raters": config.raters,
         "videos_per_rater": config.videos_per_rater, "raters_per_video": config.raters_per_video,
@@ -70,12 +69,9 @@ pub(super) fn run(arguments: &CheckStudy, context: &Context) -> Result<(), CliEr
 /// Checks that a file is there and begins like an .mp4 file.
 fn is_video(file: &PathBuf) -> Result<(), CliError> {
     let fail = |problem| CliError::File(FileError { file: file.clone(), problem });
-    if file.is_dir() {
-        return Err(fail(Problem::IsFolder));
-    }
     let mut start = Vec::new();
-    let opened = File::open(file).and_then(|opened| opened.take(8).read_to_end(&mut start));
-    opened.map_err(|error| fail(Problem::Unreadable(error)))?;
+    let read = regular::open(file)?.take(8).read_to_end(&mut start);
+    read.map_err(|error| fail(Problem::Unreadable(error)))?;
     if start.get(4..8) != Some(b"ftyp") {
         return Err(CliError::Usage(format!("{}: is not an .mp4 file", file.display())));
     }

@@ -2,7 +2,7 @@
 
 use super::{options::NewStudy, videos};
 use crate::{context::Context, error::CliError};
-use phase_files::atomic;
+use phase_files::{atomic, told};
 use phase_study::{
     config::{CatchTrial, Stimulus, StudyConfig},
     design::{Design, Experiment},
@@ -34,7 +34,7 @@ pub(super) fn run(arguments: &NewStudy, context: &Context) -> Result<(), CliErro
     })?;
     atomic::write(out, text.as_bytes()).map_err(CliError::Output)?;
     let value = json!({
-        "file": out, "form": config.form.name(), "videos": config.stimuli.len(),
+        "file": told(out), "form": config.form.name(), "videos": config.stimuli.len(),
         "catch_trials": config.catch_trials.len(), "raters": config.raters,
         "videos_per_rater": config.videos_per_rater, "raters_per_video": config.raters_per_video,
         "raters_per_video_at_most": config.raters_per_video_at_most,

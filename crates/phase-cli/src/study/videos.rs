@@ -16,8 +16,9 @@ use phase_study::{
 use rand::RngExt;
 use std::{
     collections::BTreeMap,
+    ffi::OsStr,
     fs,
-    path::{Component, Path, PathBuf},
+    path::{Path, PathBuf},
 };
 
 /// The videos of all folders, in the order of folders and ids.
@@ -98,7 +99,7 @@ fn of_folder(
     files.retain(|file| file.extension().is_some_and(|extension| extension == "mp4"));
     files.sort();
     let of = |file: &PathBuf| {
-        let id = file.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
+        let id = file.file_stem().and_then(OsStr::to_str).ok_or_else(|| unnamed(file))?.to_owned();
         let video = relative(file, base)?;
         let (objects, labels) = known.get(&id).map_or((2, Labels::default()), |recording| {
             (objects(recording.scene.objects.len()), labels(&recording.scene, recording.relation))
@@ -138,9 +139,11 @@ fn relative(file: &Path, base: &Path) -> Result<String, CliError> {
             base.display()
         )));
     };
-    let parts = below.components().map(|part| match part {
-        Component::Normal(name) => name.to_string_lossy().into_owned(),
-        other => other.as_os_str().to_string_lossy().into_owned(),
-    });
-    Ok(parts.collect::<Vec<_>>().join("/"))
+    let parts = below.components().map(|part| part.as_os_str().to_str());
+    parts.collect::<Option<Vec<_>>>().map(|parts| parts.join("/")).ok_or_else(|| unnamed(below))
+}
+
+/// A configuration names videos in text.
+fn unnamed(file: &Path) -> CliError {
+    CliError::Usage(format!("--videos: {}: has a name that is no text (UTF-8)", file.display()))
 }

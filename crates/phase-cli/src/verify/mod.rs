@@ -5,7 +5,7 @@ pub mod options;
 use crate::{console::print_message, context::Context, error::CliError, output::print_json};
 use options::Verify;
 use phase_dataset::manifest::MANIFEST_FILE;
-use phase_files::checksum::FileEntry;
+use phase_files::{checksum::FileEntry, told};
 use phase_runs::{
     shortcuts::{self, audited},
     verify::{self, Checks},
@@ -29,7 +29,7 @@ pub fn run(arguments: &Verify, context: &Context) -> Result<(), CliError> {
     let events = manifest.events.len();
     let sentences: Vec<String> = problems.iter().map(ToString::to_string).collect();
     let mut value = json!({
-        "folder": folder, "events": events, "whole": problems.is_empty(), "problems": sentences,
+        "folder": told(folder), "events": events, "whole": problems.is_empty(), "problems": sentences,
         "manifest_sha256": digest, "replayed": checks.replay,
         "resimulated": checks.resimulate.map_or(0, |count| count.min(events)),
     });

@@ -6,7 +6,7 @@ use super::{
 };
 use crate::manifest::EventEntry;
 use parquet::errors::ParquetError;
-use phase_files::{FileError, Problem};
+use phase_files::{FileError, Problem, regular};
 use std::{
     fs::File,
     io::{self, BufReader, Read, Write},
@@ -27,7 +27,7 @@ pub fn compare(folder: &Path, part: &ParquetFile, events: &[&EventEntry]) -> Res
     if events.len() != part.events {
         return Err(differs());
     }
-    let file = File::open(&path).map_err(|error| fail(Problem::Unreadable(error)))?;
+    let file = regular::open(&path)?;
     let mut rows = Rows::new(Comparison::with(file), events.len()).map_err(unwritten)?;
     for entry in events {
         let recording = read(folder, entry)?;

@@ -6,7 +6,7 @@ use phase_event::EventReadError;
 use phase_files::{
     FileError, Problem,
     checksum::{FileEntry, sha256_hex},
-    json,
+    json, regular,
 };
 use std::{
     collections::{BTreeMap, BTreeSet},
@@ -33,13 +33,15 @@ pub(super) fn manifest(folder: &Path, manifest: &Manifest, problems: &mut Vec<Fi
     if about.as_ref().is_ok_and(|about| !about.is_file()) {
         return;
     }
-    match about.and_then(|_| fs::read(&digest)) {
-        Err(error) if error.kind() == io::ErrorKind::NotFound => {
+    match regular::bytes(&digest) {
+        Err(FileError { problem: Problem::Unreadable(error), .. })
+            if error.kind() == io::ErrorKind::NotFound =>
+        {
             fail(DIGEST_FILE, DatasetProblem::Unlisted.into())
         }
         Ok(line) if line == digest_line(&sha256_hex(&bytes)).as_bytes() => {}
         Ok(_) => fail(DIGEST_FILE, Problem::Differs(format!("the digest of {MANIFEST_FILE}"))),
-        Err(error) => fail(DIGEST_FILE, Problem::Unreadable(error)),
+        Err(error) => fail(DIGEST_FILE, error.problem),
     }
 }
 

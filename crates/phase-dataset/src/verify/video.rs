@@ -1,7 +1,7 @@
 //! Whether a video is whole and has as many frames as its event, by the boxes of its container alone. Whether
 //! it shows the event takes drawing it again.
 
-use phase_files::{FileError, Problem, checksum::FileEntry};
+use phase_files::{FileError, Problem, checksum::FileEntry, regular};
 use phase_model::arena::SUBSTEPS;
 use std::{
     fs::File,
@@ -21,7 +21,7 @@ pub(super) fn check(folder: &Path, entry: &FileEntry, steps: usize) -> Result<()
     let file = entry.place(folder);
     let fail = |problem| FileError { file: file.clone(), problem };
     let shape = |rule: String| fail(Problem::Shape { what: "video", rule });
-    let sizes = frame_sizes(&file).map_err(|error| fail(Problem::Unreadable(error)))?.map_err(shape)?;
+    let sizes = frame_sizes(regular::open(&file)?).map_err(|error| fail(Problem::Unreadable(error)))?.map_err(shape)?;
     let frames = 1 + SUBSTEPS * steps;
     if sizes.len() == frames {
         Ok(())
@@ -34,8 +34,7 @@ pub(super) fn check(folder: &Path, entry: &FileEntry, steps: usize) -> Result<()
 }
 
 /// The sizes of the frames (bytes), which are all that a file holds beside its description; or what is wrong.
-fn frame_sizes(path: &Path) -> io::Result<Result<Vec<u32>, String>> {
-    let mut file = File::open(path)?;
+fn frame_sizes(mut file: File) -> io::Result<Result<Vec<u32>, String>> {
     let length = file.metadata()?.len();
     let mut at = 0;
     let mut sizes = None;

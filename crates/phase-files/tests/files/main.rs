@@ -5,4 +5,5 @@ mod cache;
 mod checksum;
 mod folder;
 mod measured;
+mod regular;
 mod run;

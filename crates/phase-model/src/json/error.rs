@@ -1,5 +1,6 @@
 //! Errors in JSON documents, each displayed as one plain sentence.
 
+use crate::foreign;
 use thiserror::Error;
 
 /// The reason why something is not a JSON document of the expected format.
@@ -22,6 +23,14 @@ pub enum JsonError {
     /// The document is truncated.
     #[error("is truncated: the JSON ends unfinished in line {0}")]
     Truncated(usize),
+    /// An object has two members of one name; which of them counts differs from reader to reader.
+    #[error("has the member `{}` twice, again in line {line}", foreign::name(member))]
+    Twice {
+        /// The name.
+        member: String,
+        /// Line of the second, from 1.
+        line: usize,
+    },
     /// A number is written as NaN or an infinity.
     #[error("holds {token} in line {line}: numbers must be finite")]
     NotANumber {

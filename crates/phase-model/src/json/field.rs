@@ -1,6 +1,7 @@
 //! The fields of a JSON document, each of which knows its path.
 
 use super::{FieldError, similar::nearest};
+use crate::foreign;
 use serde_json::{Map, Value};
 
 /// A value in a JSON tree and the path that leads to it.
@@ -140,6 +141,7 @@ impl<'a> Field<'a> {
     }
 
     fn path_of(&self, key: &str) -> String {
+        let key = foreign::name(key);
         if self.path.is_empty() { key.into() } else { format!("{}.{key}", self.path) }
     }
 }
@@ -150,13 +152,9 @@ pub fn finite(value: &Value) -> Option<f32> {
     value.as_f64().map(|number| number as f32).filter(|number| number.is_finite())
 }
 
-/// A value as in the file, truncated.
+/// A value as in the file, truncated, with unseen letters written out.
 #[must_use]
 pub fn shown(value: &Value) -> String {
     const LONGEST: usize = 40;
-    let text = value.to_string();
-    match text.char_indices().nth(LONGEST) {
-        Some((end, _)) => format!("{}…", &text[..end]),
-        None => text,
-    }
+    foreign::short(&value.to_string(), LONGEST).into_owned()
 }

@@ -1,8 +1,15 @@
 //! The likely intended name for a misspelt one.
 
+/// Longest word that is compared (bytes); no name of ours comes near it.
+const LONGEST_WORD: usize = 100;
+
 /// The candidate closest to a word, if it is close enough to be the intended one: up to a third of its
 /// letters may be wrong, at most three, ignoring case. Of equally close ones the first.
 pub(super) fn nearest<'a>(word: &str, candidates: &[&'a str]) -> Option<&'a str> {
+    // The distance takes time and memory in proportion to the length.
+    if word.len() > LONGEST_WORD {
+        return None;
+    }
     let word = plain(word);
     let distance = |candidate: &str| edit_distance(&word, &plain(candidate));
     let nearest = candidates.iter().copied().min_by_key(|candidate| distance(candidate))?;

@@ -12,6 +12,7 @@ use phase_files::{
     FileError, WriteError, atomic,
     checksum::FileEntry,
     folder::{self, Contents, Folder},
+    regular,
 };
 use std::{
     fs,
@@ -133,11 +134,6 @@ fn copy(file: &FileEntry, from: &Path, to: &Path) -> Result<(), RunError> {
         return Ok(());
     }
     file.verify(from)?;
-    let source = file.place(from);
-    let bytes = fs::read(&source).map_err(|source_error| WriteError {
-        path: source,
-        action: "read the file",
-        source: source_error,
-    })?;
+    let bytes = regular::bytes(&file.place(from))?;
     Ok(atomic::write(&file.place(to), &bytes)?)
 }

@@ -12,12 +12,11 @@ use phase_dataset::{
     shard::{self, DatasetDescription},
 };
 use phase_files::{
-    FileError,
+    FileError, Problem,
     checksum::hexadecimal,
-    json,
+    regular,
     run::{self, Run},
 };
-use phase_model::json::JsonError;
 use phase_sim::{Engine, SimulationSettings};
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
@@ -55,8 +54,19 @@ impl Plan {
     /// # Errors
     /// [`RunError::UnknownPreset`], or if the preset's file cannot be used.
     pub fn of(generation: &Generation) -> Result<Self, RunError> {
-        let text = preset_text(&generation.preset)?;
-        let preset = Preset::parse(&generation.preset, &text)?;
+        Self::with_preset(generation, Path::new(&generation.preset), &preset_text(&generation.preset)?)
+    }
+
+    /// The plan of a generation with the preset in a file, in place of the one it names.
+    ///
+    /// # Errors
+    /// If the file cannot be used.
+    pub(crate) fn with_preset_of(generation: &Generation, file: &Path) -> Result<Self, RunError> {
+        Self::with_preset(generation, file, &regular::text(file)?)
+    }
+
+    fn with_preset(generation: &Generation, place: &Path, text: &str) -> Result<Self, RunError> {
+        let preset = Preset::parse(place, text)?;
         let count = generation.events.unwrap_or_else(|| preset.events());
         let seed = generation.seed.unwrap_or(preset.seed);
         let command = generation.command(count, seed);
@@ -154,12 +164,9 @@ fn preset_text(name: &str) -> Result<String, RunError> {
     }
     let is_file = Path::new(name).extension().is_some_and(|ending| ending == "json");
     let file = Path::new(name);
-    match json::bytes(file) {
-        Ok(bytes) => String::from_utf8(bytes).map_err(|error| {
-            let problem = JsonError::NotText(error.utf8_error().valid_up_to()).into();
-            FileError { file: file.to_owned(), problem }.into()
-        }),
-        Err(_) if !is_file => Err(RunError::UnknownPreset {
+    match regular::text(file) {
+        Ok(text) => Ok(text),
+        Err(FileError { problem: Problem::Unreadable(_), .. }) if !is_file => Err(RunError::UnknownPreset {
             name: name.into(),
             known: phase_data::PRESETS.map(|(name, _)| name).join(", "),
         }),

@@ -74,7 +74,7 @@ pub(super) fn run<N: PublishedNetwork>(
     );
     let finished = Final { train, validation, test };
     let figures =
-        json!({ "weights": options.out, "network": N::NAME, "best_round": best, "final": finished });
+        json!({ "weights": phase_files::told(&options.out), "network": N::NAME, "best_round": best, "final": finished });
     let weights = to_safetensors(&network).map_err(TrainError::from)?;
     atomic::write(&options.out, &weights).map_err(TrainError::from)?;
     training_files.finish(finished)?;

@@ -209,11 +209,12 @@ fn plan(folder: &Path, checks: &Checks) -> Result<Result<Plan, RunError>, String
     if !text.starts_with("phase gen-dataset ") {
         return Err("a card, whose command is phase gen-dataset".into());
     }
-    let mut generation = Generation::of_command(&text).ok_or("a card, whose command can be given")?;
+    let generation = Generation::of_command(&text).ok_or("a card, whose command can be given")?;
     let preset = &generation.preset;
     if let Some(file) = &checks.preset {
-        generation.preset = file.to_string_lossy().into_owned();
-    } else if !phase_data::PRESETS.iter().any(|(name, _)| name == preset) {
+        return Ok(Plan::with_preset_of(&generation, file));
+    }
+    if !phase_data::PRESETS.iter().any(|(name, _)| name == preset) {
         // The card may name any file, and is not believed.
         return Err(format!("what can be replayed: give the file of its preset, {preset:?}, with --preset"));
     }
