@@ -15,11 +15,12 @@ is mended.
 import argparse
 import io
 import math
+import os
 import pickle
 import re
 import sys
 
-from importer import (EXIT_BAD_INPUT, EXIT_FAILURE, Failure, Unusable, answer, ask, content_of, is_reading, load, save)
+from importer import Unusable, answer, ask, content_of, is_reading, load, main_of, save, tell
 from recordings import (STARTS, USUAL_ANGLES, add_angles_option, convert, converted, internal_goal, kind_and_relation,
                         mirror_angle, mirror_point, mirror_rows, parse_name, steps_from_substeps, swaps)
 
@@ -162,6 +163,16 @@ def self_test(out):
     print(f"self-test passed: {len(events)} made-up recordings")
 
 
+def run(arguments):
+    if os.path.realpath(arguments.out) in map(os.path.realpath, arguments.files):
+        raise Unusable(f"{arguments.out}: the files to read and to write must be different")
+    events = [event for path in arguments.files for event in ask(__file__, path, arguments.angles)]
+    if not events:
+        raise Unusable("there are no records in these files")
+    write(events, arguments.out)
+    tell(f"{len(events)} events in {arguments.out}")
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("files", nargs="*", metavar="FILE", help="recordings (.pik)")
@@ -173,18 +184,7 @@ def main():
         return self_test(arguments.out)
     if not arguments.files or not arguments.out:
         parser.error("give recordings and --out, or --self-test")
-    try:
-        events = [event for path in arguments.files for event in ask(__file__, path, arguments.angles)]
-        if not events:
-            raise Unusable("there are no records in these files")
-        write(events, arguments.out)
-    except Unusable as error:
-        print(f"error: {error}", file=sys.stderr)
-        sys.exit(EXIT_BAD_INPUT)
-    except Failure as error:
-        print(f"error: {error}", file=sys.stderr)
-        sys.exit(EXIT_FAILURE)
-    print(f"{len(events)} events in {arguments.out}")
+    main_of(run, arguments)
 
 
 if __name__ == "__main__":

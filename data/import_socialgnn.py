@@ -22,8 +22,8 @@ import os
 import re
 import sys
 
-from importer import (EXIT_BAD_INPUT, EXIT_FAILURE, Failure, Unusable, answer, ask, content_of, import_numpy, is_reading,
-                      open_regular, read_json, save)
+from importer import (Failure, Unusable, answer, ask, content_of, import_numpy, is_reading, main_of, open_regular,
+                      read_json, save, tell)
 from recordings import RELATIONS, add_angles_option, converted, text
 
 # The published file has 100 entries of at most 101 rows and 1.5 MB.
@@ -160,10 +160,10 @@ def run(arguments):
         ratings, raters = count_ratings(arguments.raters, recordings["names"])
     save({"format": "phase-events/1", "events": events}, arguments.out)
     empty = recordings["entries"] - len(events)
-    print(f"{len(events)} events in {arguments.out}" + (f" (empty entries: {empty})" if empty else ""))
+    tell(f"{len(events)} events in {arguments.out}" + (f" (empty entries: {empty})" if empty else ""))
     if ratings:
         save(ratings, arguments.ratings)
-        print(f"ratings of {len(ratings['ratings'])} events in {arguments.ratings} by {raters}")
+        tell(f"ratings of {len(ratings['ratings'])} events in {arguments.ratings} by {raters}")
 
 
 def main():
@@ -176,14 +176,7 @@ def main():
     arguments = parser.parse_args()
     if bool(arguments.raters) != bool(arguments.ratings):
         parser.error("--raters and --ratings go together")
-    try:
-        run(arguments)
-    except Unusable as error:
-        print(f"error: {error}", file=sys.stderr)
-        sys.exit(EXIT_BAD_INPUT)
-    except Failure as error:
-        print(f"error: {error}", file=sys.stderr)
-        sys.exit(EXIT_FAILURE)
+    main_of(run, arguments)
 
 
 if __name__ == "__main__":

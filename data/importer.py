@@ -47,6 +47,31 @@ def shown(value):
     return text if len(text) <= SHOWN_CHARACTERS else text[:SHOWN_CHARACTERS] + "..."
 
 
+def printable(text):
+    """A text without characters that steer a terminal, turn its order around or have no form in bytes."""
+    escaped = lambda letter: letter.encode("unicode_escape").decode("ascii")
+    return "".join(letter if letter.isprintable() else escaped(letter) for letter in text)
+
+
+def tell(line):
+    """Prints a result. One that nobody gets is none."""
+    try:
+        print(printable(line), flush=True)
+    except OSError as error:
+        # What is left in the buffer would be tried again at the end.
+        sys.stdout = None
+        raise Failure(f"the result cannot be written to stdout: {error.strerror}") from error
+
+
+def main_of(run, *arguments):
+    """Runs an importer to its exit code; errors are one plain sentence each."""
+    try:
+        run(*arguments)
+    except (Unusable, Failure) as error:
+        print(printable(f"error: {error}"), file=sys.stderr)
+        sys.exit(EXIT_BAD_INPUT if isinstance(error, Unusable) else EXIT_FAILURE)
+
+
 def read_json(line):
     """JSON without names that an object has twice: which of them counts differs from reader to reader."""
     def members(pairs):

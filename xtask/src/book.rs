@@ -60,7 +60,7 @@ pub fn run(options: &Book) -> Result<(), XtaskError> {
             format!("{}: links to {link}, which is not there ({} such links)", page.display(), broken.len());
         return Err(XtaskError::Build { what: "the book", problem });
     }
-    print_result(format!("{documents} documents in {}", out.join("index.html").display()));
+    print_result(format!("{documents} documents in {}", out.join("index.html").display()))?;
     Ok(())
 }
 

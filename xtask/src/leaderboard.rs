@@ -98,7 +98,7 @@ pub fn run(options: &Leaderboard, context: &Context) -> Result<(), XtaskError> {
         return Err(results::shape(&file, "is not what `cargo xtask leaderboard` writes"));
     }
     if options.check {
-        print_result("the scores are those of the predictions");
+        print_result("the scores are those of the predictions")?;
         return Ok(());
     }
     atomic::write_json(&file, &all).map_err(CliError::Output)?;

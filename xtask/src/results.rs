@@ -48,10 +48,10 @@ pub fn run(options: &Results) -> Result<(), XtaskError> {
         if !options.check {
             atomic::write(&path, text.as_bytes()).map_err(CliError::Output)?;
         }
-        print_result(format!("{}: {}", file.display(), if options.check { "differs" } else { "rewritten" }));
+        print_result(format!("{}: {}", file.display(), if options.check { "differs" } else { "rewritten" }))?;
     }
     match different {
-        0 => print_result("the documents have the figures of data/results.json"),
+        0 => print_result("the documents have the figures of data/results.json")?,
         count if options.check => return Err(XtaskError::Results(count)),
         _ => {}
     }

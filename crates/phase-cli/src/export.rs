@@ -2,8 +2,8 @@
 
 use crate::{context::Context, error::CliError, interrupt, output::Output};
 use clap::{Args, value_parser};
-use phase_runs::export::{Exported, export};
 use phase_files::told;
+use phase_runs::export::{Exported, export};
 use serde_json::json;
 use std::path::PathBuf;
 

@@ -169,8 +169,7 @@ impl Preset {
     pub fn parse(name: impl AsRef<Path>, text: &str) -> Result<Self, FileError> {
         let what = "preset";
         let fail = |problem| FileError { file: name.as_ref().to_owned(), problem };
-        let preset: Self =
-            parse_as(text).map_err(|source| fail(Problem::Incomplete { what, source }))?;
+        let preset: Self = parse_as(text).map_err(|source| fail(Problem::Incomplete { what, source }))?;
         preset.check().map_err(|rule| fail(Problem::Shape { what, rule }))?;
         Ok(preset)
     }

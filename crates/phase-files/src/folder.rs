@@ -40,7 +40,11 @@ pub enum FolderError {
     #[error("{}: is a file; the output needs a folder", shown(.0))]
     IsFile(PathBuf),
     /// It contains files that no run has written.
-    #[error("{}: contains other files ({}); choose an empty or a new folder", shown(path), foreign::name(entry))]
+    #[error(
+        "{}: contains other files ({}); choose an empty or a new folder",
+        shown(path),
+        foreign::name(entry)
+    )]
     Foreign {
         /// The folder.
         path: PathBuf,
@@ -59,7 +63,11 @@ pub enum FolderError {
     #[error(transparent)]
     NotWritable(#[from] WriteError),
     /// It belongs to a run with other options.
-    #[error("{}: holds {state} run of another kind ({}); choose another folder or remove it", shown(path), foreign::sentence(difference))]
+    #[error(
+        "{}: holds {state} run of another kind ({}); choose another folder or remove it",
+        shown(path),
+        foreign::sentence(difference)
+    )]
     OtherRun {
         /// The folder.
         path: PathBuf,

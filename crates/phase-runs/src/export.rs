@@ -9,19 +9,23 @@ use phase_dataset::{
     splits::Split,
 };
 use phase_files::{
-    FileError, Problem, WriteError,
+    WriteError,
     atomic::{self, AtomicFile},
     checksum::FileEntry,
     folder::{self, Contents, Folder},
     regular,
     run::Run,
 };
+use phase_model::MAX_OBJECTS;
+use phase_sampler::Variant;
 use serde_json::{Value, json};
-use std::{fs, path::Path};
+use std::path::Path;
 use tar::{Builder, Header};
 
 /// The list of all tar files; written last.
 const INDEX_FILE: &str = "index.json";
+/// Stands for a number in the labels that an event does not have.
+const NO_NUMBER: i64 = -1;
 /// The value of its field `format`.
 const INDEX_FORMAT: &str = "phase-webdataset/1";
 
@@ -106,10 +110,7 @@ fn write(from: &Path, path: &Path, events: &[&EventEntry]) -> Result<(), RunErro
     let failed = |source| WriteError { path: path.to_owned(), action: "write the file", source };
     let mut tar = Builder::new(AtomicFile::create(path)?);
     for entry in events {
-        let mut labels =
-            serde_json::to_value(entry).map_err(|source| RunError::Serialise { what: "labels", source })?;
-        // Loaders infer signed integers, which some seeds exceed.
-        labels["seed"] = entry.seed.to_string().into();
+        let labels = labels(entry).map_err(|source| RunError::Serialise { what: "labels", source })?;
         let id = &entry.id;
         let video = entry.video.as_ref().map(|video| (format!("{id}.mp4"), video));
         let event = (format!("{id}.phase-events"), &entry.event);
@@ -120,6 +121,40 @@ fn write(from: &Path, path: &Path, events: &[&EventEntry]) -> Result<(), RunErro
     }
     tar.into_inner().map_err(failed)?.commit()?;
     Ok(())
+}
+
+/// The labels of an event: its entry of the manifest with every member in every event, of one type. Loaders
+/// take types from the first events that they see, where a list may be empty and a member null or absent in
+/// all of them; so there are no such values, but [`NO_NUMBER`] and empty texts.
+fn labels(entry: &EventEntry) -> serde_json::Result<Value> {
+    let mut labels = serde_json::to_value(entry)?;
+    // Loaders infer signed integers, which some seeds exceed.
+    labels["seed"] = entry.seed.to_string().into();
+    labels["split"] = entry.split().name().into();
+    labels["variant"] = entry.variant.map_or("", Variant::name).into();
+    labels["set"] = entry.set.as_ref().map_or_else(
+        || json!({ "set": "", "stance": "" }),
+        |place| json!({ "set": place.set, "stance": place.stance.name() }),
+    );
+    labels["layout"]["flip"] = entry.layout.flip.map_or(NO_NUMBER, i64::from).into();
+    for (agent, spec) in entry.agents.iter().enumerate() {
+        let labels = &mut labels["agents"][agent];
+        labels["steps_to_goal"] = spec.steps_to_goal.map_or(NO_NUMBER, |steps| steps as i64).into();
+        for id in ["agent", "object", "landmark", "other"] {
+            let number = &mut labels["goal"][id];
+            if number.is_null() {
+                *number = NO_NUMBER.into();
+            }
+        }
+    }
+    let size = |object: usize| entry.object_size_levels.get(object).map_or(NO_NUMBER, |&level| level.into());
+    labels["object_size_levels"] = (0..MAX_OBJECTS).map(size).collect::<Vec<_>>().into();
+    let manners: Vec<&str> = entry.manners.iter().map(|manner| manner.name()).collect();
+    labels["manners"] = manners.join(" ").into();
+    if entry.video.is_none() {
+        labels["video"] = json!({ "path": "", "bytes": 0, "sha256": "" });
+    }
+    Ok(labels)
 }
 
 /// Adds a file without owner and time, so that the same events give the same bytes.
@@ -135,4 +170,84 @@ fn append(tar: &mut Builder<AtomicFile>, name: &str, bytes: &[u8]) -> std::io::R
 fn whole(from: &Path, file: &FileEntry) -> Result<Vec<u8>, RunError> {
     file.verify(from).map_err(RunError::Altered)?;
     Ok(regular::bytes(&file.place(from))?)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::labels;
+    use phase_dataset::manifest::EventEntry;
+    use serde_json::{Value, json};
+    use std::collections::BTreeMap;
+
+    /// The types of all members; every value has to tell its own.
+    fn types(value: &Value, path: &str, found: &mut BTreeMap<String, &'static str>) {
+        let kind = match value {
+            Value::Null => panic!("{path} is null"),
+            Value::Bool(_) => "truth",
+            Value::Number(number) => {
+                assert!(number.is_i64(), "{path}: {number}");
+                "number"
+            }
+            Value::String(_) => "text",
+            Value::Array(items) => {
+                assert!(!items.is_empty(), "{path} is empty");
+                items.iter().for_each(|item| types(item, &format!("{path}[]"), found));
+                "list"
+            }
+            Value::Object(members) => {
+                members.iter().for_each(|(name, item)| types(item, &format!("{path}.{name}"), found));
+                "object"
+            }
+        };
+        assert!(found.insert(path.into(), kind).is_none_or(|other| other == kind), "{path}");
+    }
+
+    #[test]
+    fn every_sample_has_the_same_members_of_the_same_types() {
+        let file = json!({ "path": "events/a.json", "bytes": 1, "sha256": "" });
+        let entry = |goal: Value, more: Value| {
+            let agent = json!({
+                "size_level": 0, "strength_level": 3, "goal": goal, "alpha": 0, "reached": false,
+                "steps_to_goal": more["to_goal"],
+            });
+            let mut entry = json!({
+                "id": "a", "kind": "helping", "relation": "friendly", "seed": u64::MAX, "steps": 3,
+                "layout": { "base": 0, "flip": more["flip"] }, "agents": [agent, agent],
+                "object_size_levels": more["sizes"], "event": file,
+            });
+            for (name, value) in more["members"].as_object().expect("an object") {
+                entry[name] = value.clone();
+            }
+            serde_json::from_value::<EventEntry>(entry).expect("an entry")
+        };
+        let touch = json!({ "kind": "touch", "agent": 0, "other": 1, "sign": -1 });
+        let mine = json!({ "kind": "agent_on_landmark", "agent": 1, "landmark": 2, "sign": 1 });
+        let carried = json!({ "kind": "object_on_landmark", "object": 0, "landmark": 3, "sign": 1 });
+        let set = json!({ "set": "s", "stance": "help" });
+        let members = json!({
+            "variant": "places", "split": "test", "manners": ["fetching", "crossing"], "video": file,
+        });
+        let entries = [
+            entry(touch, json!({ "to_goal": null, "flip": null, "sizes": [], "members": {} })),
+            entry(mine, json!({ "to_goal": 3, "flip": 2, "sizes": [1], "members": members })),
+            entry(carried, json!({ "to_goal": 0, "flip": 0, "sizes": [1, 2], "members": { "set": set } })),
+        ];
+        let [first, second, third] = entries.map(|entry| {
+            let labels = labels(&entry).expect("labels");
+            let mut found = BTreeMap::new();
+            types(&labels, "", &mut found);
+            (labels, found)
+        });
+        assert!(first.1 == second.1 && second.1 == third.1, "{first:?}\n{second:?}\n{third:?}");
+        // What there is, is told.
+        assert_eq!(first.0["agents"][1]["goal"]["other"], 1);
+        assert_eq!(first.0["seed"], u64::MAX.to_string());
+        assert_eq!(second.0["manners"], "fetching crossing");
+        assert_eq!(
+            [&second.0["split"], &second.0["variant"], &third.0["split"]],
+            ["test", "places", "train"]
+        );
+        assert_eq!(third.0["set"], json!({ "set": "s", "stance": "help" }));
+        assert_eq!(third.0["object_size_levels"], json!([1, 2]));
+    }
 }

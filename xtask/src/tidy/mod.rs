@@ -51,7 +51,7 @@ pub struct Tidy {
 /// [`XtaskError::Untidy`] if a rule is broken.
 pub fn run(options: &Tidy) -> Result<(), XtaskError> {
     if options.figures {
-        print_result(figures::table(&mut Workspace { root: root().to_owned(), findings: Vec::new() }));
+        print_result(figures::table(&mut Workspace { root: root().to_owned(), findings: Vec::new() }))?;
         return Ok(());
     }
     let findings = check(root());
@@ -59,7 +59,7 @@ pub fn run(options: &Tidy) -> Result<(), XtaskError> {
         print_message(finding);
     }
     if findings.is_empty() {
-        print_result("tidy");
+        print_result("tidy")?;
         Ok(())
     } else {
         Err(XtaskError::Untidy(findings.len()))

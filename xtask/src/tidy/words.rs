@@ -18,12 +18,23 @@ pub(super) fn check(workspace: &mut Workspace) {
     }
 }
 
+/// The package that reads files.
+const READER: &str = "phase-files";
+/// Calls that open or read a file of any kind.
+const READS: [&str; 3] = ["fs::read(", "fs::read_to_string(", "File::open("];
+
 fn check_lines(workspace: &mut Workspace, package: &Package, source: &Source) {
     if !package.is_exempt("width") {
         for line in source.lines().filter(|line| line.text.chars().count() > WIDTH) {
             if !is_unbreakable(line.text, line.code) {
                 workspace.report(&source.file, line.number, format!("is wider than {WIDTH} characters"));
             }
+        }
+    }
+    if !package.is_of_xtask() && package.name != READER && !package.is_exempt("reads") {
+        for line in source.source().filter(|line| reads(line.code)) {
+            let rule = format!("files are read by {READER} alone, which refuses pipes and devices");
+            workspace.report(&source.file, line.number, rule);
         }
     }
     if !package.is_exempt("openings") {
@@ -33,6 +44,13 @@ fn check_lines(workspace: &mut Workspace, package: &Package, source: &Source) {
             workspace.report(&source.file, line, rule);
         }
     }
+}
+
+/// Whether code opens or reads a file of any kind.
+fn reads(code: &str) -> bool {
+    let whole_word =
+        |at: usize| !code[..at].ends_with(|before: char| before.is_alphanumeric() || before == '_');
+    READS.iter().any(|call| code.match_indices(call).any(|(at, _)| whole_word(at)))
 }
 
 /// Whether a line is wide because of a word, or of a text that `rustfmt` does not break.

@@ -74,7 +74,13 @@ fn every_rule_is_checked() {
     let unsafe_root = ROOT.replace("#![forbid(unsafe_code)]\n", "");
     let other_example = ROOT.replace("f();", "g();");
     let encoding = format!("{ROOT}use bin{}::serde;\n", "code");
+    let reading = format!("{ROOT}fn f() {{ std::fs::read(1); TensorFile::open(2); }}\n");
     let cases: &[(&str, &str, &[&str])] = &[
+        (
+            "crates/phase-model/src/lib.rs",
+            &reading,
+            &["crates/phase-model/src/lib.rs:9: files are read by phase-files alone"],
+        ),
         (
             "crates/phase-model/Cargo.toml",
             &upwards,

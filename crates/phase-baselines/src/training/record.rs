@@ -1,7 +1,8 @@
 //! The record of a training: data, settings, results and duration.
 
 use super::{Metrics, Network, Round, TrainingRun, TrainingSettings};
-use serde::{Deserialize, Serialize};
+use phase_model::json::parse_as;
+use serde::{Deserialize, Serialize, de::Error as _};
 use std::collections::BTreeMap;
 use thiserror::Error;
 
@@ -197,7 +198,8 @@ impl TrainingRecord {
     /// # Errors
     /// [`TrainingRecordError`], but not [`TrainingRecordError::Other`].
     pub fn parse(bytes: &[u8]) -> Result<Self, TrainingRecordError> {
-        let record: Self = serde_json::from_slice(bytes)?;
+        let text = str::from_utf8(bytes).map_err(serde_json::Error::custom)?;
+        let record: Self = parse_as(text)?;
         if record.rounds.iter().zip(1..).any(|(round, number)| round.number != number) {
             return Err(TrainingRecordError::Order);
         }

@@ -6,13 +6,13 @@ pub mod options;
 use crate::{context::Context, error::CliError, interrupt, output::Output};
 use options::{GenDataset, Merge};
 use phase_dataset::manifest::{MANIFEST_FILE, PAGE_FILE};
+use phase_files::told;
 use phase_report::acceptance;
 use phase_runs::{
     gen_dataset::{Generated, Generation, Outcome, complete::Completed, merge},
     words,
 };
 use serde_json::json;
-use phase_files::told;
 use std::path::{Path, PathBuf};
 
 /// Runs `gen-dataset`.
@@ -44,7 +44,8 @@ fn announce(generated: &Generated, output: Output, more: &str) -> Result<(), Cli
         Outcome::Made(completed) => announce_new(out, completed, output, more),
         Outcome::MadeShard(shard, of) => {
             let text = format!("{} in {place}; merge all {of} shards with merge", words::events(*events));
-            let value = json!({ "folder": told(out), "events": events, "shard": shard, "of": of, "new": true });
+            let value =
+                json!({ "folder": told(out), "events": events, "shard": shard, "of": of, "new": true });
             output.print(text, &value)
         }
         Outcome::Kept(what) => {

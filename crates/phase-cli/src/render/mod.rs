@@ -48,7 +48,8 @@ pub fn run(arguments: &Render, context: &Context) -> Result<(), CliError> {
         let path = target.path(&recording.id, arguments, extension);
         if arguments.observer && is_same_file(&course_path(&path), &arguments.file) {
             let file = arguments.file.display();
-            let rule = "is read, and what an observer makes of it would be written there; choose another --out";
+            let rule =
+                "is read, and what an observer makes of it would be written there; choose another --out";
             return Err(RunError::Usage(format!("{file}: {rule}")));
         }
         let watched = match arguments.observer {

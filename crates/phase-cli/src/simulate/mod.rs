@@ -7,12 +7,12 @@ mod outcomes;
 use crate::{context::Context, error::CliError, interrupt};
 use options::Simulate;
 use phase_dataset::manifest::PAGE_FILE;
+use phase_files::told;
 use phase_report::summary;
 use phase_runs::{
     simulate::{Simulated, Simulations},
     words,
 };
-use phase_files::told;
 use serde_json::json;
 
 /// Runs the command.

@@ -10,6 +10,7 @@ mod earlier;
 mod eval;
 mod export;
 mod gen_dataset;
+mod hostile;
 mod interruption;
 mod json;
 mod manual;

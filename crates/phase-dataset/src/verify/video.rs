@@ -21,7 +21,9 @@ pub(super) fn check(folder: &Path, entry: &FileEntry, steps: usize) -> Result<()
     let file = entry.place(folder);
     let fail = |problem| FileError { file: file.clone(), problem };
     let shape = |rule: String| fail(Problem::Shape { what: "video", rule });
-    let sizes = frame_sizes(regular::open(&file)?).map_err(|error| fail(Problem::Unreadable(error)))?.map_err(shape)?;
+    let sizes = frame_sizes(regular::open(&file)?)
+        .map_err(|error| fail(Problem::Unreadable(error)))?
+        .map_err(shape)?;
     let frames = 1 + SUBSTEPS * steps;
     if sizes.len() == frames {
         Ok(())

@@ -276,6 +276,10 @@ fn sheets_of_careful_raters_are_counted() {
     fs::remove_file(folder.path().join("out.json")).expect("removed");
     write("c.txt", "[]\n{\"cut\": \n".to_owned());
     assert_refused(folder.path(), &arguments, "line 2 is no JSON");
+    write("c.txt", "[]\n[[\"video_name\", \"a\"], [\"video_name\", \"b\"]]\n".to_owned());
+    assert_refused(folder.path(), &arguments, "line 2 gives a name twice");
+    write("c.txt", "[]\n[[\"video_name\", {\"a\": 1, \"a\": 2}]]\n".to_owned());
+    assert_refused(folder.path(), &arguments, "line 2 has the member `a` twice");
     fs::remove_dir_all(&raters).expect("removed");
     assert_refused(folder.path(), &arguments, "raters: cannot be read");
     fs::create_dir(&raters).expect("a folder");

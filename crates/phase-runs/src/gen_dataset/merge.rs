@@ -9,15 +9,12 @@ use phase_dataset::{
     slot_record::{Records, SlotRecord},
 };
 use phase_files::{
-    FileError, WriteError, atomic,
+    FileError, atomic,
     checksum::FileEntry,
     folder::{self, Contents, Folder},
     regular,
 };
-use std::{
-    fs,
-    path::{Path, PathBuf},
-};
+use std::path::{Path, PathBuf};
 
 /// Combines all shards of a dataset, in any order, in a folder: new, empty, or of the same merge. The shards
 /// are unchanged; the result is the same, byte for byte, as that of a single run.

@@ -56,7 +56,10 @@ pub(super) fn run(options: &Training, listener: &dyn Listener) -> Result<Trained
         |---|---|---|---|---|---|\n"
         .to_owned();
     let lines = rows.iter().map(Row::line).collect::<String>();
-    Ok(Trained { text: text + &lines, figures: json!({ "weights": phase_files::told(&options.out), "scores": rows }) })
+    Ok(Trained {
+        text: text + &lines,
+        figures: json!({ "weights": phase_files::told(&options.out), "scores": rows }),
+    })
 }
 
 /// Accuracy of the network on one part of the data.

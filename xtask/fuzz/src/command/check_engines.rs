@@ -2,7 +2,7 @@
 
 use crate::engines;
 use clap::Args;
-use phase_cli::{console::print_result, context::Context};
+use phase_cli::{console::print_result, context::Context, error::CliError};
 
 /// Options of `check-engines`.
 #[derive(Args, Debug)]
@@ -16,7 +16,10 @@ pub(super) struct CheckEngines {
 }
 
 /// Runs the command: prints what was measured.
-pub(super) fn run(arguments: &CheckEngines, context: &Context) {
+///
+/// # Errors
+/// If they cannot be printed.
+pub(super) fn run(arguments: &CheckEngines, context: &Context) -> Result<(), CliError> {
     let first = u64::from(arguments.seed);
-    print_result(engines::report(first..first + u64::from(arguments.scenes), |what| context.note(what)));
+    print_result(engines::report(first..first + u64::from(arguments.scenes), |what| context.note(what)))
 }

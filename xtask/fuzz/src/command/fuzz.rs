@@ -80,11 +80,11 @@ pub(super) fn run(arguments: &Fuzz, context: &Context) -> Result<(), FuzzError> 
     });
     let mut lines = lines.into_inner().unwrap_or_else(PoisonError::into_inner);
     lines.sort_by(|a, b| a.1.cmp(&b.1));
-    print_result("| target | executions | a second |\n|---|---|---|");
+    print_result("| target | executions | a second |\n|---|---|---|")?;
     for (_, line) in &lines {
-        print_result(line);
+        print_result(line)?;
     }
-    print_result(format!("{} executions", lines.iter().map(|line| line.0).sum::<u64>()));
+    print_result(format!("{} executions", lines.iter().map(|line| line.0).sum::<u64>()))?;
     match failures.into_inner().unwrap_or_else(PoisonError::into_inner).pop() {
         Some(error) => Err(error),
         None => Ok(()),

@@ -8,6 +8,7 @@ use clap::{Parser, Subcommand};
 use fuzz::Fuzz;
 use phase_cli::{
     context::{Context, Verbosity},
+    error::CliError,
     program::{self, Interface},
 };
 use std::{io, path::PathBuf};
@@ -37,6 +38,9 @@ enum Command {
 /// Reason that a command that fuzzes failed. The text is one plain sentence.
 #[derive(Debug, Error)]
 pub enum FuzzError {
+    /// What is shared with `phase` failed.
+    #[error(transparent)]
+    Cli(#[from] CliError),
     /// The folder of a target's inputs cannot be read.
     #[error("{}: cannot be read: {source}", folder.display())]
     Unreadable {
@@ -75,10 +79,7 @@ impl Interface for Cli {
 
     fn run(&self, context: &Context) -> Result<(), FuzzError> {
         match &self.command {
-            Command::CheckEngines(arguments) => {
-                check_engines::run(arguments, context);
-                Ok(())
-            }
+            Command::CheckEngines(arguments) => Ok(check_engines::run(arguments, context)?),
             Command::Fuzz(arguments) => fuzz::run(arguments, context),
         }
     }

@@ -82,11 +82,11 @@ pub fn run(arguments: &CheckBehaviour, context: &Context) -> Result<(), RunError
     let report = report::to_json(run.value(), &results);
     complete(arguments, folder, &report)?;
     if to_stdout(arguments) {
-        print_result(format!("{report:#}"));
+        print_result(format!("{report:#}"))?;
         return Ok(());
     }
-    print_result(report::table(&results).trim_end());
-    print_result(format!("contact sheets in {}", arguments.out.join(SHEETS).display()));
+    print_result(report::table(&results).trim_end())?;
+    print_result(format!("contact sheets in {}", arguments.out.join(SHEETS).display()))?;
     Ok(())
 }
 

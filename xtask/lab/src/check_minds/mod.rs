@@ -58,12 +58,12 @@ pub fn run(arguments: &CheckMinds, context: &Context) -> Result<(), LabError> {
     if let Some(out) = &arguments.json {
         let text = json_text(&report, "the report")?;
         if out == Path::new(json_file::STDOUT) {
-            print_result(text.trim_end());
+            print_result(text.trim_end())?;
             return Ok(());
         }
         atomic::write(out, text.as_bytes()).map_err(RunError::Output)?;
     }
-    print_result(table::print(&report).trim_end());
+    print_result(table::print(&report).trim_end())?;
     Ok(())
 }
 

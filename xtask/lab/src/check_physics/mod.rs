@@ -61,12 +61,12 @@ pub fn run(arguments: &CheckPhysics, context: &Context) -> Result<(), LabError> 
     if let Some(out) = &arguments.json {
         let text = to_json(&report, &targets, records.mirrored)?;
         if out == Path::new(json_file::STDOUT) {
-            print_result(text.trim_end());
+            print_result(text.trim_end())?;
             return Ok(());
         }
         atomic::write(out, text.as_bytes()).map_err(RunError::Output)?;
     }
-    print_result(table::print(&report, &targets, records.mirrored).trim_end());
+    print_result(table::print(&report, &targets, records.mirrored).trim_end())?;
     Ok(())
 }
 

@@ -122,7 +122,7 @@ pub fn run(arguments: &FitEvents, context: &Context) -> Result<(), LabError> {
     if let Some((_, fitted)) = ranked.first() {
         json_file::write(arguments.out.as_deref(), &json_text(fitted, "the settings")?)?;
     }
-    print_result(text.trim_end());
+    print_result(text.trim_end())?;
     Ok(())
 }
 

@@ -89,7 +89,7 @@ pub fn run(arguments: &FitInference, context: &Context) -> Result<(), LabError> 
         held_out: &others,
     };
     json_file::write(files.out.as_deref(), &json_text(&report.fitted, "the weights")?)?;
-    print_result(report.text().trim_end());
+    print_result(report.text().trim_end())?;
     Ok(())
 }
 

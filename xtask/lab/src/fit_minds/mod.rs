@@ -63,7 +63,7 @@ pub fn run(arguments: &FitMinds, context: &Context) -> Result<(), LabError> {
     if arguments.ablation {
         let ablation = Ablation::of(start, &chosen, &everything, method, &mut evaluations)?;
         json_file::write(arguments.out.as_deref(), &json_text(&ablation, "the ablation")?)?;
-        print_result(ablation.table().trim_end());
+        print_result(ablation.table().trim_end())?;
         return Ok(());
     }
     let mut fits = fits(&subjects[..own], events, start, arguments);
@@ -75,7 +75,7 @@ pub fn run(arguments: &FitMinds, context: &Context) -> Result<(), LabError> {
             &json_text(&MindParameters::from(all.parameters), "the parameters")?,
         )?;
     }
-    print_result(text.trim_end());
+    print_result(text.trim_end())?;
     Ok(())
 }
 

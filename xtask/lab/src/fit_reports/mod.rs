@@ -114,7 +114,7 @@ pub fn run(arguments: &FitReports) -> Result<(), LabError> {
             number(Some(ceiling.mode)),
         );
     }
-    print_result(text.trim_end());
+    print_result(text.trim_end())?;
     Ok(())
 }
 

@@ -174,6 +174,6 @@ fn print_table(kinds: &[&Kind], counts: &[[usize; Found::ALL.len()]]) -> Result<
     };
     lines.extend(kinds.iter().zip(counts).map(|(kind, counts)| row(kind.name, kind.mends.name(), counts)));
     lines.push(row("all", "", &sums(counts)));
-    print_result(lines.join("\n"));
+    print_result(lines.join("\n"))?;
     Ok(())
 }

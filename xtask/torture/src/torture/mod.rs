@@ -125,7 +125,7 @@ pub fn run(arguments: &Torture, context: &Context) -> Result<(), TortureError> {
     let counted: Vec<&Disturbance> = all.iter().zip(&done).filter_map(counted).collect();
     let rows: Vec<String> =
         (0..subjects.len()).map(|number| row(number, &subjects[number], &counted)).collect();
-    print_result(format!("| command | steps | {heads} |\n|---|{rule}\n{}", rows.join("\n")));
+    print_result(format!("| command | steps | {heads} |\n|---|{rule}\n{}", rows.join("\n")))?;
     let Some(results) = results else { return Err(TortureError::Interrupted) };
     let wrong = results.into_iter().collect::<Result<Vec<_>, _>>()?;
     match wrong.iter().flatten().count() {
