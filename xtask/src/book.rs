@@ -10,7 +10,7 @@ use crate::{
     wasm::run_tool,
 };
 use clap::Args;
-use phase_cli::console::print_result;
+use phase_cli::output::print_result;
 use std::{
     collections::{BTreeMap, BTreeSet},
     fs, io, iter,

@@ -6,12 +6,7 @@
 
 use crate::{error::XtaskError, results};
 use clap::{Args, Parser};
-use phase_cli::{
-    cli::Cli,
-    console::{print_message, print_result},
-    context::Context,
-    error::CliError,
-};
+use phase_cli::{cli::Cli, console::print_message, context::Context, error::CliError, output::print_result};
 use phase_eval::{
     Estimate,
     benchmark::{Benchmark, GENERATED, PAIRS, RECORDED},

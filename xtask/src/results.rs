@@ -3,7 +3,7 @@
 
 use crate::{error::XtaskError, leaderboard};
 use clap::Args;
-use phase_cli::{console::print_result, error::CliError};
+use phase_cli::{error::CliError, output::print_result};
 use phase_eval::{benchmark::Benchmark, goals::ReportTraining};
 use phase_files::{FileError, Problem, WriteError, atomic};
 use phase_report::evaluation;

@@ -1,6 +1,6 @@
 //! `completions`: a script with which a shell completes commands and options.
 
-use crate::{console::print_text, context::Context, error::CliError};
+use crate::{console::write_result, context::Context, error::CliError};
 use clap::Args;
 use clap_complete::{Shell, generate};
 
@@ -20,5 +20,5 @@ pub fn run(arguments: &Completions, context: &Context) -> Result<(), CliError> {
     let name = command.get_name().to_owned();
     let mut script = Vec::new();
     generate(arguments.shell, &mut command, name, &mut script);
-    print_text(&String::from_utf8_lossy(&script))
+    Ok(write_result(&String::from_utf8_lossy(&script))?)
 }

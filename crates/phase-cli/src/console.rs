@@ -2,28 +2,26 @@
 //!
 //! The standard macros panic on a closed pipe (`… | head`), which must not end a run.
 
-use crate::error::CliError;
+use phase_files::plain_reason;
 use phase_model::foreign;
 use std::{
     fmt::Display,
     io::{self, Write},
 };
+use thiserror::Error;
 
-/// Writes a line to stdout, where results go. What others wrote in it steers no terminal.
+/// A result that nobody got, and so none.
+#[derive(Debug, Error)]
+#[error("the result cannot be written to stdout: {}", plain_reason(.0))]
+pub struct Unprinted(#[from] pub io::Error);
+
+/// Writes a text to stdout, where results go, as it is.
 ///
 /// # Errors
-/// [`CliError::Stdout`]: a result that nobody got is none.
-pub fn print_result(line: impl Display) -> Result<(), CliError> {
-    print_text(&format!("{}\n", foreign::message(&line.to_string())))
-}
-
-/// Writes a text to stdout as it is.
-///
-/// # Errors
-/// [`CliError::Stdout`].
-pub fn print_text(text: &str) -> Result<(), CliError> {
+/// [`Unprinted`].
+pub fn write_result(text: &str) -> Result<(), Unprinted> {
     let mut out = io::stdout().lock();
-    out.write_all(text.as_bytes()).and_then(|()| out.flush()).map_err(CliError::Stdout)
+    Ok(out.write_all(text.as_bytes()).and_then(|()| out.flush())?)
 }
 
 /// Writes a line to stderr, where progress, notes and errors go. What others wrote in it steers no terminal.

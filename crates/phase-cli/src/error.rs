@@ -1,11 +1,11 @@
 //! Every way in which a command can fail, and its exit code.
 
-use crate::program::Failure;
-use phase_files::{FileError, WriteError, plain_reason};
+use crate::{console::Unprinted, program::Failure};
+use phase_files::{FileError, WriteError};
 use phase_model::EventKind;
 use phase_runs::error::{Fault, RunError};
 use phase_sampler::SampleError;
-use std::{io, path::PathBuf};
+use std::path::PathBuf;
 use thiserror::Error;
 
 /// Why a command failed. The text is one plain sentence.
@@ -21,8 +21,8 @@ pub enum CliError {
     #[error(transparent)]
     Output(WriteError),
     /// The result cannot be written to stdout.
-    #[error("the result cannot be written to stdout: {}", plain_reason(.0))]
-    Stdout(#[source] io::Error),
+    #[error(transparent)]
+    Stdout(#[from] Unprinted),
     /// An option is not compatible with the input.
     #[error("{0}")]
     Usage(String),

@@ -1,6 +1,6 @@
 //! `man`: the manual, a page for each command.
 
-use crate::{console::print_result, context::Context, error::CliError};
+use crate::{context::Context, error::CliError, output::print_result};
 use clap::Args;
 use clap_mangen::Man;
 use phase_files::{WriteError, atomic};

@@ -1,9 +1,6 @@
 //! The result of a command: text for people, or one JSON object for programs.
 
-use crate::{
-    console::{print_result, print_text},
-    error::CliError,
-};
+use crate::{console::write_result, error::CliError};
 use clap::Args;
 use phase_model::foreign;
 use serde::Serialize;
@@ -30,12 +27,20 @@ impl Output {
     }
 }
 
+/// Writes a line to stdout, where results go. What others wrote in it steers no terminal.
+///
+/// # Errors
+/// [`CliError::Stdout`].
+pub fn print_result(line: impl Display) -> Result<(), CliError> {
+    Ok(write_result(&format!("{}\n", foreign::message(&line.to_string())))?)
+}
+
 /// Prints a value as one JSON object.
 ///
 /// # Errors
 /// [`CliError::Serialise`] or [`CliError::Stdout`].
 pub fn print_json(value: &impl Serialize) -> Result<(), CliError> {
-    print_text(&foreign::json(&json_text(value, "the result")?))
+    Ok(write_result(&foreign::json(&json_text(value, "the result")?))?)
 }
 
 /// A value as the text of a JSON file, its last line ended. `what` names it in errors.

@@ -1,6 +1,6 @@
 //! `playground`: the playground as static files.
 
-use crate::{console::print_result, context::Context, error::CliError};
+use crate::{context::Context, error::CliError, output::print_result};
 use clap::Args;
 use phase_files::{WriteError, atomic, regular};
 use phase_web::WASM;

@@ -1,9 +1,8 @@
 //! From a command line to an exit code.
 
 use crate::{
-    console::print_message,
+    console::{Unprinted, print_message},
     context::{Context, Program, Verbosity},
-    error::CliError,
 };
 use clap::{Parser, error::ErrorKind};
 use phase_model::foreign;
@@ -66,7 +65,7 @@ pub fn run_with<I: Interface>(
         Err(error) if !error.use_stderr() => {
             // Help or version was requested.
             error.print().map_err(|source| {
-                let sentence = CliError::Stdout(source).to_string();
+                let sentence = Unprinted(source).to_string();
                 Failed { sentence, causes: Vec::new(), exit_code: 1, usage: false }
             })
         }

@@ -61,7 +61,7 @@ impl Interface for Cli {
     fn run(&self, context: &Context) -> Result<(), LabError> {
         match &self.command {
             Command::CheckPhysics(arguments) => check_physics::run(arguments, context),
-            Command::CheckBehaviour(arguments) => Ok(check_behaviour::run(arguments, context)?),
+            Command::CheckBehaviour(arguments) => check_behaviour::run(arguments, context),
             Command::DrawBehaviour(arguments) => draw_behaviour::run(arguments),
             Command::CheckMinds(arguments) => check_minds::run(arguments, context),
             Command::FitInference(arguments) => fit_inference::run(arguments, context),

@@ -13,7 +13,7 @@ pub use layers::layers;
 
 use crate::{error::XtaskError, results::root};
 use clap::Args;
-use phase_cli::console::{print_message, print_result};
+use phase_cli::{console::print_message, output::print_result};
 use scan::Source;
 use std::{
     fmt, fs, io,

@@ -3,11 +3,10 @@
 pub mod options;
 
 use crate::{
-    console::print_result,
     context::Context,
     error::CliError,
     interrupt,
-    output::{json_text, print_json},
+    output::{json_text, print_json, print_result},
 };
 use options::{Common, Eval};
 use phase_files::atomic;

@@ -50,7 +50,8 @@ fn announce(generated: &Generated, output: Output, more: &str) -> Result<(), Cli
         }
         Outcome::Kept(what) => {
             let text = format!("{place} holds this {what} already; all {events} events are whole\n");
-            let value = json!({ "folder": told(out), "events": events, "page": page(out).as_deref().map(told), "new": false });
+            let page = told_page(out);
+            let value = json!({ "folder": told(out), "events": events, "page": page, "new": false });
             output.print(text + &page_line(out), &value)
         }
     }
@@ -66,7 +67,7 @@ fn announce_new(out: &Path, completed: &Completed, output: Output, more: &str) -
     text += &format!("{events} in {}\nSHA-256 of {MANIFEST_FILE}: {digest}\n", out.display());
     text += &format!("{}{more}", page_line(out));
     let value = json!({
-        "folder": told(out), "events": overview.events, "seed": overview.seed, "page": page(out).as_deref().map(told),
+        "folder": told(out), "events": overview.events, "seed": overview.seed, "page": told_page(out),
         "selection": overview.selection, "manifest_sha256": digest, "new": true,
     });
     output.print(text, &value)
@@ -75,6 +76,10 @@ fn announce_new(out: &Path, completed: &Completed, output: Output, more: &str) -
 /// The page on which the events can be watched, if they have videos.
 fn page(out: &Path) -> Option<PathBuf> {
     Some(out.join(PAGE_FILE)).filter(|page| page.exists())
+}
+
+fn told_page(out: &Path) -> Option<String> {
+    page(out).as_deref().map(told)
 }
 
 fn page_line(out: &Path) -> String {

@@ -24,7 +24,7 @@ pub fn run(_: &Serve, context: &Context) -> Result<(), CliError> {
 /// cannot be used.
 #[cfg(feature = "serve")]
 pub fn run(arguments: &Serve, context: &Context) -> Result<(), CliError> {
-    use crate::{console::print_result, playground::read_wasm};
+    use crate::{output::print_result, playground::read_wasm};
     use phase_game::{GameSettings, playlist::Item};
     use phase_serve::{Server, ServerSettings};
     use phase_sim::SimulationSettings;

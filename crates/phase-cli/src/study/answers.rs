@@ -90,7 +90,8 @@ pub(super) fn export(arguments: &ExportStudy) -> Result<(), CliError> {
     }
     let paths: Vec<&str> = files.iter().map(|file| file.path.as_str()).collect();
     let rated_file = (rated > 0).then_some(&file);
-    let value = json!({ "folder": told(out), "files": paths, "ratings": rated_file.map(|file| told(file)), "rated": rated });
+    let rated_file = rated_file.map(|file| told(file));
+    let value = json!({ "folder": told(out), "files": paths, "ratings": rated_file, "rated": rated });
     let mut text = format!("{} files in {}", files.len(), out.display());
     if rated > 0 {
         text += &format!("\nratings of {rated} events for eval goals --ratings in {}", file.display());

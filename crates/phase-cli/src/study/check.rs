@@ -5,10 +5,7 @@ use crate::{context::Context, error::CliError};
 use phase_files::{FileError, Problem, json, regular, told};
 use phase_study::{config::StudyConfig, forms::Forms};
 use serde_json::json;
-use std::{
-    io::Read as _,
-    path::{Path, PathBuf},
-};
+use std::{io::Read as _, path::Path};
 
 /// Reads a configuration.
 pub(super) fn read(file: &Path) -> Result<(StudyConfig, Forms), CliError> {
@@ -67,8 +64,8 @@ pub(super) fn run(arguments: &CheckStudy, context: &Context) -> Result<(), CliEr
 }
 
 /// Checks that a file is there and begins like an .mp4 file.
-fn is_video(file: &PathBuf) -> Result<(), CliError> {
-    let fail = |problem| CliError::File(FileError { file: file.clone(), problem });
+fn is_video(file: &Path) -> Result<(), CliError> {
+    let fail = |problem| CliError::File(FileError { file: file.to_owned(), problem });
     let mut start = Vec::new();
     let read = regular::open(file)?.take(8).read_to_end(&mut start);
     read.map_err(|error| fail(Problem::Unreadable(error)))?;

@@ -73,7 +73,8 @@ pub(super) fn run<N: PublishedNetwork>(
         of_test.unwrap_or_default(),
     );
     let finished = Final { train, validation, test };
-    let figures = json!({ "weights": phase_files::told(&options.out), "network": N::NAME, "best_round": best, "final": finished });
+    let place = phase_files::told(&options.out);
+    let figures = json!({ "weights": place, "network": N::NAME, "best_round": best, "final": finished });
     let weights = to_safetensors(&network).map_err(TrainError::from)?;
     atomic::write(&options.out, &weights).map_err(TrainError::from)?;
     training_files.finish(finished)?;

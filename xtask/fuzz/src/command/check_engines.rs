@@ -2,7 +2,7 @@
 
 use crate::engines;
 use clap::Args;
-use phase_cli::{console::print_result, context::Context, error::CliError};
+use phase_cli::{context::Context, error::CliError, output::print_result};
 
 /// Options of `check-engines`.
 #[derive(Args, Debug)]

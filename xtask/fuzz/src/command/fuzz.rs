@@ -6,7 +6,7 @@ use crate::{
     targets::{Check, TARGETS},
 };
 use clap::{Args, builder::PossibleValuesParser, value_parser};
-use phase_cli::{console::print_result, context::Context};
+use phase_cli::{context::Context, output::print_result};
 use phase_files::{atomic, checksum::sha256_hex};
 use phase_runs::interrupt::requested;
 use std::{

@@ -38,7 +38,7 @@ enum Command {
 /// Reason that a command that fuzzes failed. The text is one plain sentence.
 #[derive(Debug, Error)]
 pub enum FuzzError {
-    /// What is shared with `phase` failed.
+    /// Something shared with `phase` failed.
     #[error(transparent)]
     Cli(#[from] CliError),
     /// The folder of a target's inputs cannot be read.

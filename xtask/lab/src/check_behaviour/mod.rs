@@ -7,9 +7,9 @@ mod rows;
 pub mod sets;
 mod trial;
 
-use crate::check_minds::parameters;
+use crate::{check_minds::parameters, error::LabError};
 use options::CheckBehaviour;
-use phase_cli::{console::print_result, context::Context, interrupt};
+use phase_cli::{context::Context, interrupt, output::print_result};
 use phase_dataset::phase_events;
 use phase_files::{
     WriteError, atomic,
@@ -43,8 +43,8 @@ const SHEET_FRAMES: usize = 15;
 /// Runs the command.
 ///
 /// # Errors
-/// Any [`RunError`].
-pub fn run(arguments: &CheckBehaviour, context: &Context) -> Result<(), RunError> {
+/// Any [`LabError`].
+pub fn run(arguments: &CheckBehaviour, context: &Context) -> Result<(), LabError> {
     let scenes = scenes(arguments)?;
     let seeds = arguments.seeds as usize;
     let settings = settings(arguments)?;
@@ -64,7 +64,7 @@ pub fn run(arguments: &CheckBehaviour, context: &Context) -> Result<(), RunError
         let (part, id, scene) = &scenes[k / seeds];
         runner.trial(&PARTS[*part], id, scene, k % seeds)
     })?;
-    let Some(trials) = made else { return Err(RunError::Interrupted(arguments.out.clone())) };
+    let Some(trials) = made else { return Err(RunError::Interrupted(arguments.out.clone()).into()) };
     let mut trials = trials.into_iter();
     let results: Vec<SceneResult> = scenes
         .iter()
@@ -74,7 +74,7 @@ pub fn run(arguments: &CheckBehaviour, context: &Context) -> Result<(), RunError
             trials: trials.by_ref().take(seeds).collect(),
         })
         .collect();
-    let sheets = folder.subfolder(SHEETS)?;
+    let sheets = folder.subfolder(SHEETS).map_err(RunError::from)?;
     for (result, (.., scene)) in results.iter().zip(&scenes) {
         draw(&runner, &sheets, result, scene)?;
     }
@@ -133,7 +133,7 @@ fn prepare(out: &Path, run: &Run) -> Result<Folder, RunError> {
     folder::inspect(out, REPORT_FILE)?;
     let folder = Folder::claim(out, run)?;
     atomic::remove(&out.join(REPORT_FILE))?;
-    let sheets = folder.subfolder(SHEETS)?;
+    let sheets = folder.subfolder(SHEETS).map_err(RunError::from)?;
     let failed = |source| WriteError { path: sheets.clone(), action: "clear the folder", source };
     for entry in std::fs::read_dir(&sheets).map_err(failed)?.flatten() {
         if entry.path().extension().is_some_and(|extension| extension == "png") {

@@ -13,7 +13,11 @@ mod table;
 use crate::{error::LabError, json_file};
 use measure::Measurement;
 use options::CheckMinds;
-use phase_cli::{console::print_result, context::Context, interrupt, output::json_text};
+use phase_cli::{
+    context::Context,
+    interrupt,
+    output::{json_text, print_result},
+};
 use phase_eval::goals::canonical;
 use phase_event::Recording;
 use phase_files::atomic;

@@ -10,7 +10,11 @@ use phase_calibration::{
     ColdForward, Engine, Probe, ReadError, Replay, Report, Run, StatelessErrors, WarmForward, WorldEngine,
     horizon_errors, probes_report, replay_reports, run_reports,
 };
-use phase_cli::{console::print_result, context::Context, error::CliError, output::json_text};
+use phase_cli::{
+    context::Context,
+    error::CliError,
+    output::{json_text, print_result},
+};
 use phase_files::{atomic, json};
 use phase_runs::{error::RunError, source::EventInput};
 use serde::Serialize;

@@ -10,7 +10,11 @@ use crate::{
     fit_events::{FitEvents, KeptFigures},
     json_file,
 };
-use phase_cli::{console::print_result, context::Context, interrupt, output::json_text};
+use phase_cli::{
+    context::Context,
+    interrupt,
+    output::{json_text, print_result},
+};
 use phase_eval::trajectories::{Errors, PREDICTED_STEPS, WATCHED_STEPS};
 use phase_event::{Forecaster, MethodError, MethodResult, Prediction, ProgressCallback, Recording};
 use phase_model::{Forecast, Vec2};

@@ -17,7 +17,11 @@ mod weights;
 use crate::{check_minds::parameters, error::LabError, fit_events::KeptFigures, fit_minds::folds, json_file};
 use grid::Grid;
 use options::FitInference;
-use phase_cli::{console::print_result, context::Context, interrupt, output::json_text};
+use phase_cli::{
+    context::Context,
+    interrupt,
+    output::{json_text, print_result},
+};
 use phase_event::Recording;
 use phase_model::AGENT_COUNT;
 use phase_runs::{error::RunError, words};

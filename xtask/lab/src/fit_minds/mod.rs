@@ -20,7 +20,11 @@ use ablation::Ablation;
 use evaluations::Evaluations;
 use options::FitMinds;
 use parameter::{PARAMETERS, Parameter};
-use phase_cli::{console::print_result, context::Context, interrupt, output::json_text};
+use phase_cli::{
+    context::Context,
+    interrupt,
+    output::{json_text, print_result},
+};
 use phase_event::{MethodError, ObservedEvent, Recording};
 use phase_minds::{MindParameters, PhaseParameters};
 use phase_runs::{error::RunError, parallel::make_all, words};

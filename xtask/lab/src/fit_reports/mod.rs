@@ -9,7 +9,7 @@ mod regression;
 
 use crate::{error::LabError, fit_minds::folds, json_file};
 use options::FitReports;
-use phase_cli::{console::print_result, output::json_text};
+use phase_cli::output::{json_text, print_result};
 use phase_eval::{
     Estimate,
     goals::{Agreement, Protocol, REPORT_TRAINING_FORMAT, RecognisedEvent, ReportTraining},

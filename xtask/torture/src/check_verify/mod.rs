@@ -14,7 +14,11 @@ use crate::error::TortureError;
 use clap::{Args, value_parser};
 use folder::{EditedCopy, Original};
 use kinds::{KINDS, Kind};
-use phase_cli::{console::print_result, context::Context, output::print_json, parallel::Jobs};
+use phase_cli::{
+    context::Context,
+    output::{print_json, print_result},
+    parallel::Jobs,
+};
 use phase_dataset::manifest::Manifest;
 use phase_files::FileError;
 use phase_model::random::{Purpose, stream};

@@ -10,7 +10,7 @@ mod serve;
 use crate::error::TortureError;
 use clap::{Args, value_parser};
 use jobs::{JOBS, Job};
-use phase_cli::{console::print_result, context::Context, interrupt, parallel::Jobs};
+use phase_cli::{context::Context, interrupt, output::print_result, parallel::Jobs};
 use phase_model::random::{Pcg64Mcg, Purpose, stream};
 use phase_runs::{error::RunError, interrupt::requested, parallel::make_all};
 use rand::RngExt;
