@@ -5,7 +5,7 @@ use super::{
     options::{BackupStudy, ExportStudy, ReportStudy},
 };
 use crate::{console::print_message, error::CliError};
-use phase_files::{WriteError, atomic, private, told};
+use phase_files::{WriteError, atomic, private, regular, told};
 use phase_study::{
     analysis::{Analysis, document},
     config::StudyConfig,
@@ -14,10 +14,7 @@ use phase_study::{
     store::{Answers, backup as copy},
 };
 use serde_json::json;
-use std::{
-    fs::{self, File},
-    path::Path,
-};
+use std::{ffi::OsString, fs, path::Path};
 
 /// The raters of a study.
 fn raters(config: &StudyConfig, answers: &Path) -> Result<Vec<Rater>, CliError> {
@@ -44,10 +41,13 @@ pub(super) fn backup(arguments: &BackupStudy) -> Result<(), CliError> {
         return Err(CliError::Usage(format!("--out: {} is not a file", out.display())));
     };
     // Under its name it is whole.
-    let part = out.with_file_name(format!(".{}.{}.part", name.to_string_lossy(), std::process::id()));
+    let mut hidden = OsString::from(".");
+    hidden.push(name);
+    hidden.push(format!(".{}.part", std::process::id()));
+    let part = out.with_file_name(hidden);
     private::options().write(true).create_new(true).open(&part).map_err(failed("write"))?;
     let copied = copy(from, &part).map_err(CliError::Answers).and_then(|()| {
-        File::open(&part).and_then(|file| file.sync_all()).map_err(failed("write"))?;
+        regular::open(&part)?.sync_all().map_err(failed("write"))?;
         fs::rename(&part, out).map_err(failed("name"))
     });
     if copied.is_err() {
@@ -56,7 +56,7 @@ pub(super) fn backup(arguments: &BackupStudy) -> Result<(), CliError> {
     }
     copied?;
     let text = format!("{}: a copy of {}", out.display(), from.display());
-    arguments.output.print(text, &json!({ "file": out, "answers": from }))
+    arguments.output.print(text, &json!({ "file": told(out), "answers": told(from) }))
 }
 
 /// Creates a folder for what raters said.
