@@ -12,6 +12,19 @@ fn dataset(path: &Path) {
     succeed(path, &made.concat());
 }
 
+/// Reads all labels with the types that the first sample has.
+const TYPES_OF_THE_FIRST: &str = r#"
+import glob, json, sys
+try:
+    import pyarrow
+except ImportError:
+    print("skipped: there is no pyarrow")
+    sys.exit()
+labels = [json.load(open(file)) for file in sorted(glob.glob("*.json"))]
+schema = pyarrow.Table.from_pylist(labels[:1]).schema
+assert pyarrow.Table.from_pylist(labels, schema=schema).to_pylist() == labels
+"#;
+
 #[test]
 fn tar_reads_what_was_exported() {
     let folder = tempfile::tempdir().expect("a folder");
@@ -40,6 +53,15 @@ fn tar_reads_what_was_exported() {
         let labels = fs::read(path.join(format!("read/{id}.json"))).expect("labels");
         let labels: Value = serde_json::from_slice(&labels).expect("JSON");
         assert_eq!(labels["id"], id);
+    }
+    let arrow =
+        Command::new("python3").args(["-c", TYPES_OF_THE_FIRST]).current_dir(path.join("read")).output();
+    match arrow {
+        Ok(arrow) => {
+            assert!(arrow.status.success(), "{}", text(&arrow.stderr));
+            eprint!("{}", text(&arrow.stdout));
+        }
+        Err(_) => eprintln!("skipped: there is no python3"),
     }
     // The labels of videos, as the videofolder loader reads them.
     let table = fs::read_to_string(path.join("data/videos/metadata.csv")).expect("a table");
