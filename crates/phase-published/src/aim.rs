@@ -1,13 +1,13 @@
 //! The subgoals that the published planner's high level gives to its low level.
 
-use crate::rooms::Rooms;
+use crate::{
+    recorded::{DIAGONAL, ROOM_BONUS},
+    rooms::Rooms,
+};
 use phase_model::{
-    Action, AgentId, Entity, Goal, LandmarkId, Literal, ObjectId, PhysicsConfig, Predicate, PredicateTarget,
+    Action, AgentId, Entity, Goal, LandmarkId, Literal, ObjectId, Predicate, PredicateTarget,
     RoomId, Sign, State, Subgoal, Vec2, arena, layout::room_of,
 };
-
-/// Worth of an object in the right room, as a distance (u).
-const ROOM_BONUS: f32 = 282.8;
 
 /// A subgoal of the published planner.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
@@ -20,8 +20,8 @@ pub enum Aim {
     ObjectToLandmark(ObjectId, LandmarkId, Sign),
     /// An agent at an entity, or away from it.
     Touch(AgentId, Entity, Sign),
-    /// An agent in a room.
-    AgentToRoom(AgentId, RoomId),
+    /// An agent in a room, or away from it.
+    AgentToRoom(AgentId, RoomId, Sign),
     /// An object in a room.
     ObjectToRoom(ObjectId, RoomId),
     /// An agent holds an object, or releases it.
@@ -32,42 +32,22 @@ pub enum Aim {
 const WALKING: [Action; 5] = [Action::TurnLeft, Action::TurnRight, Action::Up, Action::Stop, Action::NoForce];
 
 impl Aim {
-    /// The actions that the low level chooses from. One who wrestles for a landmark may push in all
-    /// directions.
+    /// The actions that the low level chooses from. `older` is the action set of recordings before the 28th of
+    /// August 2020, in which an agent may push in all directions on the way to a landmark.
     #[must_use]
-    pub fn actions(
-        self,
-        own: AgentId,
-        wrestles: bool,
-        rooms: &Rooms,
-        physics: &PhysicsConfig,
-        state: &State,
-    ) -> &'static [Action] {
+    pub fn actions(self, own: AgentId, older: bool, state: &State) -> &'static [Action] {
         const ALL: &[Action; 14] = &Action::ALL;
         let with_attach = &ALL[..13];
         let without_hands = &ALL[..12];
         let holding = state.held_object(own).is_some();
         match self {
             Self::Stop => &[Action::Stop],
-            Self::AgentToLandmark(agent, ..) | Self::AgentToRoom(agent, _) if agent == own && !wrestles => {
-                &WALKING
-            }
-            Self::Touch(..) => &WALKING,
+            Self::AgentToLandmark(agent, ..) if agent != own || older => without_hands,
+            Self::AgentToLandmark(..) | Self::AgentToRoom(..) | Self::Touch(..) => &WALKING,
             Self::ObjectToLandmark(..) => with_attach,
-            Self::Grab(..) => {
-                if holding {
-                    ALL
-                } else {
-                    with_attach
-                }
-            }
-            Self::ObjectToRoom(object, room) => {
-                // Whatever is carried, the first object decides.
-                let first = physics.object_radii[0];
-                let here = room_of(state.position(Entity::Object(object)));
-                if !holding || rooms.blocked(here, room, first) { with_attach } else { without_hands }
-            }
-            Self::AgentToLandmark(..) | Self::AgentToRoom(..) => without_hands,
+            Self::Grab(..) if holding => ALL,
+            Self::ObjectToRoom(..) if holding => without_hands,
+            Self::Grab(..) | Self::ObjectToRoom(..) => with_attach,
         }
     }
 
@@ -84,7 +64,7 @@ impl Aim {
                 rooms.distance(at(Entity::Object(object)), arena::LANDMARKS[landmark])
             }
             Self::Touch(agent, entity, _) => rooms.distance(at(Entity::Agent(agent)), at(entity)),
-            Self::AgentToRoom(agent, room) => rooms.room_distance(at(Entity::Agent(agent)), room),
+            Self::AgentToRoom(agent, room, _) => rooms.room_distance(at(Entity::Agent(agent)), room),
             Self::ObjectToRoom(object, room) => {
                 let place: Vec2 = at(Entity::Object(object));
                 let bonus = if room_of(place) == room { ROOM_BONUS } else { 0.0 };
@@ -105,7 +85,7 @@ impl Aim {
     #[must_use]
     pub fn reward(self, rooms: &Rooms, state: &State, action: Action) -> f64 {
         let sign = f64::from(self.sign().value());
-        -sign * f64::from(self.distance(rooms, state) / arena::DIAGONAL)
+        -sign * f64::from(self.distance(rooms, state) / DIAGONAL)
             + phase_model::reward::action_cost(action)
     }
 
@@ -116,8 +96,9 @@ impl Aim {
             Self::AgentToLandmark(.., sign)
             | Self::ObjectToLandmark(.., sign)
             | Self::Touch(.., sign)
+            | Self::AgentToRoom(.., sign)
             | Self::Grab(.., sign) => sign,
-            Self::Stop | Self::AgentToRoom(..) | Self::ObjectToRoom(..) => Sign::Positive,
+            Self::Stop | Self::ObjectToRoom(..) => Sign::Positive,
         }
     }
 
@@ -130,7 +111,7 @@ impl Aim {
             Self::AgentToLandmark(agent, landmark, _) => Predicate::On(Entity::Agent(agent), landmark),
             Self::ObjectToLandmark(object, landmark, _) => Predicate::On(Entity::Object(object), landmark),
             Self::Touch(agent, entity, _) => Predicate::Touch(agent, entity),
-            Self::AgentToRoom(agent, to) => Predicate::Close(Entity::Agent(agent), room(to)),
+            Self::AgentToRoom(agent, to, _) => Predicate::Close(Entity::Agent(agent), room(to)),
             Self::ObjectToRoom(object, to) => Predicate::Close(Entity::Object(object), room(to)),
             Self::Grab(agent, object, _) => Predicate::Attach(agent, object),
         };

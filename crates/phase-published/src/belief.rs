@@ -1,6 +1,6 @@
 //! The particle belief of the published simulator's agents.
 
-use crate::{redraw::Redraw, senses::observe};
+use crate::{recorded::INITIAL_REACH, redraw::Redraw, senses::observe};
 use phase_belief::overwrite;
 use phase_forward::Forward;
 use phase_model::{
@@ -9,9 +9,6 @@ use phase_model::{
 };
 use phase_perception::{CellSet, Observation};
 use rand::{Rng, RngExt};
-
-/// Half the number of integer places along one side over which unseen bodies are spread at first.
-const INITIAL_REACH: i32 = 8;
 
 /// One agent's belief: complete states of the world, all equally likely.
 #[derive(Clone, Debug)]
@@ -35,6 +32,7 @@ impl Belief {
         physics: &PhysicsConfig,
         observation: &Observation,
         particle_count: usize,
+        truth: &State,
         random: &mut impl Rng,
     ) -> Self {
         let flip = layout.flip();
@@ -62,17 +60,17 @@ impl Belief {
             particles,
             seen: CellSet::EMPTY,
         };
-        belief.update(Action::NoForce, observation, random);
+        belief.update(Action::NoForce, observation, truth, random);
         belief
     }
 
     /// One step: every particle is moved on by the imagined dynamics, in which the other agent coasts, then
     /// overwritten with the observation, and unseen bodies that contradict it are redrawn.
-    pub fn update(&mut self, action: Action, observation: &Observation, random: &mut impl Rng) {
+    pub fn update(&mut self, action: Action, observation: &Observation, truth: &State, random: &mut impl Rng) {
         self.seen = self.seen.union(&observation.visible);
         let mut actions = [Action::NoForce; AGENT_COUNT];
         actions[self.agent] = action;
-        let redraw = Redraw { physics: &self.physics, flip: self.flip, seen: &self.seen, observation };
+        let redraw = Redraw { physics: &self.physics, flip: self.flip, seen: &self.seen, observation, truth };
         // When everything is observed, all particles become what is observed.
         let blind = self.physics.entities().any(|entity| !observation.observed.contains(entity));
         for particle in &mut self.particles {

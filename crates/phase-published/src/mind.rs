@@ -7,12 +7,12 @@ use crate::{
     rooms::Rooms,
     rules::Rules,
     search::SearchModel,
-    selection::{Proposal, proposals, pursued},
+    selection::{Proposal, distance_left, proposals, pursued},
 };
 use phase_event::{ActionEvaluation, SubgoalValue, Thought};
 use phase_forward::Forward;
 use phase_model::{
-    Action, AgentId, Attitude, Scene, State, Subgoal,
+    Action, AgentId, Scene, State, Subgoal,
     random::{Purpose, stream},
 };
 use phase_pomcp::{ActionStatistics, Pomcp, PomcpError, PomcpSettings};
@@ -52,7 +52,6 @@ impl Mind {
                 agent,
                 goals: scene.goals(),
                 attitude: scene.agents[agent].attitude,
-                hindered: scene.agents[agent.other()].attitude == Attitude::Hinder,
             },
             pomcp,
             parameters,
@@ -73,6 +72,14 @@ impl Mind {
         self.rules.aim(state)
     }
 
+    /// What a possible state of the world costs a subgoal's value: the distance left to the final goal, of the
+    /// other if the agent helps or hinders it, times the weight.
+    #[must_use]
+    pub fn cost(&self, state: &State) -> f64 {
+        let Rules { rooms, agent, .. } = &self.rules;
+        self.parameters.lambda * f64::from(distance_left(rooms, *agent, self.rules.goal(), state))
+    }
+
     /// Chooses the next action, given possible states of the world that are all equally likely; returns it
     /// with its explanation. Without particles the agent stops.
     ///
@@ -87,8 +94,8 @@ impl Mind {
         let seed = random.next_u64();
         let aims = self.aims(particles);
         let agent = self.rules.agent;
-        let lambda = self.parameters.lambda;
-        let proposals = proposals(&self.rules.rooms, agent, particles, &aims, lambda);
+        let costs: Vec<f64> = particles.iter().map(|particle| self.cost(particle)).collect();
+        let proposals = proposals(&aims, &costs);
         let Some(chosen) = pursued(&proposals, agent) else { return Ok((Action::Stop, Thought::IDLE)) };
         let aim = chosen.aim;
         let roots: Vec<State> = chosen.particles.iter().map(|&k| particles[k]).collect();
@@ -119,7 +126,7 @@ impl Mind {
         seed: u64,
     ) -> Result<(Action, Vec<ActionEvaluation>), PomcpError> {
         let Rules { agent, physics, .. } = &self.rules;
-        let actions = self.rules.actions(aim, &roots[0]);
+        let actions = aim.actions(*agent, self.parameters.older_actions, &roots[0]);
         if let [only] = actions {
             return Ok((*only, Vec::new()));
         }

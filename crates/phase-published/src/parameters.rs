@@ -29,6 +29,9 @@ pub struct PublishedParameters {
     /// Whether bodies collide with each other in the search, as they do in the original; if not, they pass
     /// through each other.
     pub collisions: bool,
+    /// Whether agents on the way to a landmark push in all directions, as they do in recordings made before
+    /// the 28th of August 2020 (inferred); if not, they turn, push forward or let themselves slide.
+    pub older_actions: bool,
 }
 
 impl Default for PublishedParameters {
@@ -43,6 +46,7 @@ impl Default for PublishedParameters {
             c_base: 1000.0,
             discount: 0.95,
             collisions: true,
+            older_actions: false,
         }
     }
 }

@@ -1,13 +1,9 @@
 //! The cells that the outline of a body runs through, as the published simulator has them.
 
+use crate::recorded::{CIRCLE_POINTS, GRAIN};
 use core::f32::consts::TAU;
 use phase_model::{Body, Entity, PhysicsConfig, Vec2, arena, geometry::Outline};
 use phase_perception::{Cell, cells::CELLS_PER_SIDE};
-
-/// Points on an object's circle whose cells are its perimeter.
-const CIRCLE_POINTS: usize = 16;
-/// Points are rounded down to multiples of this before their cells are looked up (u).
-const GRAIN: f32 = 0.1;
 
 /// The cells of a body's outline.
 #[derive(Clone, Debug, Default)]

@@ -1,34 +1,41 @@
 //! The bodies of a particle that contradict an observation, and the places that they are put at instead.
 
-use crate::{perimeter::Perimeter, senses::scaled};
+use crate::{
+    perimeter::Perimeter,
+    recorded::{CELL_DRAWS, CLEARANCE_SCALE, HEADINGS, NEAR_TRUTH},
+    senses::scaled,
+};
 use core::f32::consts::FRAC_PI_4;
 use phase_model::{AgentId, Body, BodySet, Entity, Flip, PhysicsConfig, State, Vec2, geometry::Outline};
 use phase_perception::{Cell, CellSet, Observation};
 use rand::{Rng, RngExt};
 
-/// Factor by which observed bodies are enlarged: unseen ones keep that clear of them.
-const CLEARANCE_SCALE: f32 = 1.1;
-/// Cells tried for a body without overlaps, and again for one that may overlap.
-const CELL_DRAWS: usize = 10;
-/// Headings tried at each cell.
-const HEADINGS: usize = 8;
-
 /// Everything that decides about unseen bodies.
-pub(crate) struct Redraw<'a> {
-    pub(crate) physics: &'a PhysicsConfig,
+pub struct Redraw<'a> {
+    /// The scene's physics.
+    pub physics: &'a PhysicsConfig,
     /// The layout's reflection: the original saw the world as it was before.
-    pub(crate) flip: Option<Flip>,
+    pub flip: Option<Flip>,
     /// Every cell ever seen.
-    pub(crate) seen: &'a CellSet,
-    pub(crate) observation: &'a Observation,
+    pub seen: &'a CellSet,
+    /// What the agent observes.
+    pub observation: &'a Observation,
+    /// The state of the world: the original looks at it, and tolerates an unseen body near its true place.
+    pub truth: &'a State,
 }
 
 impl Redraw<'_> {
+    /// Whether an unseen body of a particle contradicts the observation.
+    #[must_use]
+    pub fn contradicts(&self, particle: &State, entity: Entity) -> bool {
+        !self.consistent(entity, particle.body(entity)) || self.touches_observed(particle, entity)
+    }
+
     /// Redraws the bodies of a particle that contradict the observation.
     pub(crate) fn apply(&self, particle: &mut State, random: &mut impl Rng) {
         let unseen = self.physics.entities().filter(|&entity| !self.observation.observed.contains(entity));
         let contradicted: BodySet =
-            unseen.filter(|&entity| !self.consistent(particle, entity, particle.body(entity))).collect();
+            unseen.filter(|&entity| self.contradicts(particle, entity)).collect();
         if contradicted.is_empty() {
             return;
         }
@@ -52,22 +59,20 @@ impl Redraw<'_> {
             // The original fails here. Whatever is not in view now may have been entered since.
             free = Cell::all().filter(|&cell| !self.observation.visible.contains(cell)).collect();
         }
-        let mut waiting = contradicted;
         for entity in contradicted.iter() {
-            waiting.remove(entity);
-            if let Some(body) = self.place(particle, entity, waiting, &free, random) {
+            if let Some(body) = self.place(particle, entity, contradicted, &free, random) {
                 *particle.body_mut(entity) = body;
             }
         }
     }
 
-    /// A new pose for a body: consistent and clear of all bodies but those still waiting for theirs; else
-    /// consistent; else the last one tried. `None` without cells to choose from.
+    /// A new pose for a body: consistent and clear of all bodies but those redrawn; else consistent; else the
+    /// last one tried. `None` without cells to choose from.
     fn place(
         &self,
         particle: &State,
         entity: Entity,
-        waiting: BodySet,
+        redrawn: BodySet,
         free: &[Cell],
         random: &mut impl Rng,
     ) -> Option<Body> {
@@ -84,8 +89,8 @@ impl Redraw<'_> {
                     let angle = self.flip.map_or(angle, |flip| flip.angle(angle));
                     let body = Body::at_rest(corner, angle);
                     last = Some(body);
-                    if self.consistent(particle, entity, &body)
-                        && (overlapping || self.clear(particle, entity, waiting, &body))
+                    if self.consistent(entity, &body)
+                        && (overlapping || self.clear(particle, entity, redrawn, &body))
                     {
                         return last;
                     }
@@ -101,33 +106,35 @@ impl Redraw<'_> {
         cell.centre() + self.flip.map_or(upper_left, |flip| flip.vector(upper_left))
     }
 
-    /// Whether an unseen body may be in a pose: no cell of its outline is in view or out of range, and it
-    /// keeps clear of all that is observed.
-    fn consistent(&self, particle: &State, entity: Entity, body: &Body) -> bool {
+    /// Whether an unseen body may be in a pose: no cell of its outline is out of range, and none is in view
+    /// unless the body is near its true place.
+    fn consistent(&self, entity: Entity, body: &Body) -> bool {
         if !body.is_finite() {
             return false;
         }
         let perimeter = Perimeter::of(self.physics, entity, body);
-        if perimeter.out_of_range
-            || perimeter.cells.iter().any(|&cell| self.observation.visible.contains(cell))
-        {
-            return false;
-        }
-        let outline = Outline::of(self.physics, entity, body);
-        !self.observation.observed.iter().any(|known| {
+        let off = (body.position - self.truth.position(entity)).abs();
+        let is_near = off.max_element() <= NEAR_TRUTH;
+        !perimeter.out_of_range
+            && (is_near || !perimeter.cells.iter().any(|&cell| self.observation.visible.contains(cell)))
+    }
+
+    /// Whether an unseen body overlaps an observed one, enlarged.
+    fn touches_observed(&self, particle: &State, entity: Entity) -> bool {
+        let outline = Outline::of(self.physics, entity, particle.body(entity));
+        self.observation.observed.iter().any(|known| {
             let known = Outline::of(self.physics, known, particle.body(known));
             outline.overlaps(&scaled(&known, CLEARANCE_SCALE))
         })
     }
 
-    /// Whether a pose overlaps neither walls nor any body that has its place.
-    fn clear(&self, particle: &State, entity: Entity, waiting: BodySet, body: &Body) -> bool {
+    /// Whether a pose keeps clear of what is observed and of unseen bodies that are kept. Walls do not count.
+    fn clear(&self, particle: &State, entity: Entity, redrawn: BodySet, body: &Body) -> bool {
         let outline = Outline::of(self.physics, entity, body);
-        let others = self.physics.entities().filter(|&other| other != entity && !waiting.contains(other));
-        outline.inside_arena()
-            && !self.physics.walls.iter().any(|&wall| outline.overlaps_wall(wall))
-            && !others
-                .into_iter()
-                .any(|other| outline.overlaps(&Outline::of(self.physics, other, particle.body(other))))
+        let mut others = self.physics.entities().filter(|&other| other != entity && !redrawn.contains(other));
+        !others.any(|other| {
+            let scale = if self.observation.observed.contains(other) { CLEARANCE_SCALE } else { 1.0 };
+            outline.overlaps(&scaled(&Outline::of(self.physics, other, particle.body(other)), scale))
+        })
     }
 }

@@ -3,17 +3,15 @@
 //! Every layout but the open one has at most one way between two rooms, because one wall is always full; so
 //! there are no ties between ways, and a reflected layout is treated as its original.
 
+use crate::recorded::{DIAGONAL, ROOM_CORNER};
 use phase_model::{
     Layout, RoomId, Segment, Vec2, arena,
     layout::{SLOT_LENGTH, room_of},
 };
 use phase_navigation::Map;
 
-/// Distance along each axis of a room's corner point from the arena's centre (u).
-const CORNER: f32 = 8.75;
-
 /// Rooms and the paths between them. Paths cross doors in their middles, and what cannot be reached is as far
-/// as the arena is wide: [`arena::DIAGONAL`].
+/// as the arena is wide, 28.2843 u.
 #[derive(Clone, Debug)]
 pub struct Rooms(Map);
 
@@ -73,7 +71,7 @@ impl Rooms {
         if self.is_open() || start == end {
             return from.distance(to);
         }
-        let Some(way) = self.way(start, end) else { return arena::DIAGONAL };
+        let Some(way) = self.way(start, end) else { return DIAGONAL };
         let mut sum = 0.0;
         let mut here = from;
         for door in self.doors(&way) {
@@ -93,7 +91,7 @@ impl Rooms {
         }
         match self.door(here, room) {
             Some(door) => from.distance(door.middle()) + door.middle().distance(corner(room)),
-            None => arena::DIAGONAL,
+            None => DIAGONAL,
         }
     }
 
@@ -108,5 +106,5 @@ impl Rooms {
 #[must_use]
 fn corner(room: RoomId) -> Vec2 {
     let towards = (arena::LANDMARKS[room.landmark()] - arena::CENTRE).signum();
-    arena::CENTRE + towards * CORNER
+    arena::CENTRE + towards * ROOM_CORNER
 }

@@ -1,7 +1,7 @@
 //! The choice among the subgoals that the particles propose.
 
 use crate::{aim::Aim, rooms::Rooms};
-use phase_model::{AgentId, Entity, ObjectId, State, arena};
+use phase_model::{AgentId, Entity, Goal, ObjectId, State, arena};
 
 /// A subgoal with the particles that propose it.
 #[derive(Clone, Debug)]
@@ -13,14 +13,9 @@ pub(crate) struct Proposal {
     pub(crate) particles: Vec<usize>,
 }
 
-/// All subgoals proposed, the most valuable first; of equally valuable ones the one proposed first.
-pub(crate) fn proposals(
-    rooms: &Rooms,
-    agent: AgentId,
-    particles: &[State],
-    aims: &[Aim],
-    lambda: f64,
-) -> Vec<Proposal> {
+/// All subgoals proposed, the most valuable first; of equally valuable ones the one proposed first. Takes the
+/// cost of every particle.
+pub(crate) fn proposals(aims: &[Aim], costs: &[f64]) -> Vec<Proposal> {
     let mut proposals: Vec<Proposal> = Vec::new();
     for (particle, &aim) in aims.iter().enumerate() {
         match proposals.iter_mut().find(|proposal| proposal.aim == aim) {
@@ -30,23 +25,22 @@ pub(crate) fn proposals(
     }
     for proposal in &mut proposals {
         let count = proposal.particles.len() as f64;
-        let costs =
-            proposal.particles.iter().map(|&k| f64::from(cost(rooms, agent, proposal.aim, &particles[k])));
-        proposal.value = count / aims.len() as f64 - lambda * costs.sum::<f64>() / count;
+        let cost: f64 = proposal.particles.iter().map(|&particle| costs[particle]).sum();
+        proposal.value = count / aims.len() as f64 - cost / count;
     }
     proposals.sort_by(|a, b| b.value.total_cmp(&a.value));
     proposals
 }
 
-/// Distance (u) left to go: an agent's way to its landmark; an object's way if it is held, else the way to
-/// the object. Nothing for all other subgoals.
-fn cost(rooms: &Rooms, agent: AgentId, aim: Aim, state: &State) -> f32 {
+/// Distance (u) left to go to the final goal, whatever the subgoal: of an agent, its way to the landmark; of
+/// an object, its way if the agent holds it, else the agent's way to it. Nothing for all other goals.
+pub(crate) fn distance_left(rooms: &Rooms, agent: AgentId, goal: Goal, state: &State) -> f32 {
     let at = |entity| state.position(entity);
-    match aim {
-        Aim::AgentToLandmark(who, landmark, _) => {
-            rooms.distance(at(Entity::Agent(who)), arena::LANDMARKS[landmark])
+    match goal {
+        Goal::AgentOnLandmark { agent, landmark, .. } => {
+            rooms.distance(at(Entity::Agent(agent)), arena::LANDMARKS[landmark])
         }
-        Aim::ObjectToLandmark(object, landmark, _) => {
+        Goal::ObjectOnLandmark { object, landmark, .. } => {
             let place = at(Entity::Object(object));
             if state.holds(agent, object) {
                 rooms.distance(place, arena::LANDMARKS[landmark])
@@ -54,7 +48,7 @@ fn cost(rooms: &Rooms, agent: AgentId, aim: Aim, state: &State) -> f32 {
                 rooms.distance(at(Entity::Agent(agent)), place)
             }
         }
-        _ => 0.0,
+        Goal::Touch { .. } => 0.0,
     }
 }
 

@@ -1,15 +1,13 @@
 //! The observations of an agent of the published simulator: a cone of cells with occlusion, touch by scaled
 //! outlines, and one link of what touches what is observed.
 
-use crate::perimeter::Perimeter;
+use crate::{perimeter::Perimeter, recorded::TOUCH_SCALE};
 use phase_model::{
-    AgentId, BodySet, Entity, PhysicsConfig, Segment, State, Vec2,
+    AgentId, BodySet, Entity, ObjectId, PhysicsConfig, Segment, Side, State, Vec2,
     geometry::{self, Outline},
+    physics::GRAB_REACH,
 };
 use phase_perception::{Cell, CellSet, Observation, viewpoint::TAN_HALF_ANGLE};
-
-/// Factor by which outlines are enlarged to tell whether bodies touch.
-pub(crate) const TOUCH_SCALE: f32 = 1.2;
 
 /// Everything an agent observes of a state.
 #[must_use]
@@ -28,6 +26,20 @@ pub fn observe(physics: &PhysicsConfig, state: &State, agent: AgentId) -> Observ
 pub fn in_view(physics: &PhysicsConfig, state: &State, agent: AgentId, entity: Entity) -> bool {
     let eye = Eye::new(physics, state, agent);
     Perimeter::of(physics, entity, state.body(entity)).cells.iter().any(|&cell| eye.sees_cell(cell))
+}
+
+/// Whether an object by itself is near enough to an agent to be grabbed, whatever else is.
+#[must_use]
+pub fn attachable(physics: &PhysicsConfig, state: &State, agent: AgentId, object: ObjectId) -> bool {
+    let body = state.body(Entity::Agent(agent));
+    let centre = state.position(Entity::Object(object));
+    let rotation = Vec2::from_angle(body.angle);
+    let reach = physics.object_radii[object] + GRAB_REACH;
+    state.grips[agent].is_none()
+        && Side::ALL.into_iter().any(|side| {
+            let point = rotation.rotate(side.direction() * physics.agents[agent].radius);
+            (body.position + point).distance(centre) < reach
+        })
 }
 
 /// The entities that an agent observes: itself, those in view, those it touches or holds, and what is linked

@@ -44,9 +44,9 @@ impl View<'_> {
         self.stand_on(&way).unwrap_or(negated)
     }
 
-    /// The room beside a door on the other's way that is too narrow for the first object, the nearer of the
-    /// two: the object there closes the door. `None` if there is no such door, or that way is not shorter
-    /// than the other's.
+    /// The room beside the first door on the other's way that is too narrow for the first object, where the
+    /// object closes the door: across the door if it lies beside it, else the nearer one. `None` if there is
+    /// no such door, or the agent's way there is not shorter than the other's.
     fn room_to_plug(&self, way: &[RoomId]) -> Option<RoomId> {
         if self.rules.physics.object_count == 0 {
             return None;
@@ -54,25 +54,34 @@ impl View<'_> {
         let object = ObjectId::ZERO;
         let diameter = 2.0 * self.rules.physics.object_radii[object];
         let here = self.room(Entity::Object(object));
-        let length = |to: RoomId| self.rooms().way(here, to).map(|way| way.len());
-        way.windows(2)
-            .filter(|pair| self.rooms().door(pair[0], pair[1]).is_some_and(|door| door.length() < diameter))
-            .flat_map(|pair| [pair[0], pair[1]])
-            .filter_map(|room| Some((length(room)?, room)))
-            .filter(|&(length, _)| length < way.len())
-            .min_by_key(|&(length, _)| length)
-            .map(|(_, room)| room)
+        let door = way.windows(2).find(|pair| {
+            self.rooms().door(pair[0], pair[1]).is_some_and(|door| door.length() < diameter)
+        })?;
+        let (before, after) = (door[0], door[1]);
+        if here == before {
+            return Some(after);
+        }
+        if here == after {
+            return Some(before);
+        }
+        let fetch = if self.state.holds(self.me, object) { 0 } else { self.steps(self.my_room(), here)? };
+        let room = [after, before].into_iter().min_by_key(|&room| self.steps(here, room))?;
+        (fetch + self.steps(here, room)? < way.len() - 1).then_some(room)
     }
 
-    /// Goes to the nearest room on the other's way with a wall beside its door. The room that it is in is not
-    /// among them, so that it goes to and fro where there is no other.
+    /// The number of doors on the way from one room to another; `None` where there is no way.
+    fn steps(&self, from: RoomId, to: RoomId) -> Option<usize> {
+        self.rooms().way(from, to).map(|way| way.len() - 1)
+    }
+
+    /// Goes to the nearest room on the other's way whose exit has a wall beside it, or to its last room.
     fn stand_on(&self, way: &[RoomId]) -> Option<Aim> {
         let here = self.my_room();
-        let walled = way.windows(2).filter(|pair| self.rooms().walled(pair[0], pair[1]));
-        let nearest = walled
-            .flatten()
-            .filter(|&&room| room != here)
-            .filter_map(|&room| Some((self.rooms().way(here, room)?.len(), room)))
+        let nearest = way
+            .iter()
+            .enumerate()
+            .filter(|&(k, &room)| way.get(k + 1).is_none_or(|&next| self.rooms().walled(room, next)))
+            .filter_map(|(_, &room)| Some((self.steps(here, room)?, room)))
             .min_by_key(|&(length, _)| length);
         self.towards(nearest?.1)
     }
@@ -84,52 +93,70 @@ impl View<'_> {
             return negated;
         }
         let entity = Entity::Object(object);
-        let goal = landmark.room();
-        let there = self.room(entity);
-        let reaches = |agent: AgentId, to| !self.blocked(agent, self.room(Entity::Agent(agent)), to);
-        if !reaches(self.me, there) {
-            let way = self.rooms().way(self.other_room(), goal).unwrap_or_default();
-            return self.stand_on(&way).unwrap_or(Aim::Stop);
+        let (there, goal, here, others) = (self.room(entity), landmark.room(), self.my_room(), self.other_room());
+        let radius = |agent: AgentId| self.rules.physics.agents[agent].radius;
+        let other_blocked = |from, to| self.rooms().blocked(from, to, radius(self.other));
+        if self.rooms().blocked(here, there, radius(self.me)) {
+            let helpless = self.state.grips[self.other].is_some() || others == there;
+            return if helpless { Aim::Stop } else { Aim::AgentToRoom(self.other, there, Sign::Negative) };
         }
-        let holding = self.state.holds(self.me, object);
-        if self.state.holds(self.other, object) && !holding {
-            if self.blocked(self.other, there, goal) {
-                return self.release_or_stop();
-            }
-            return if self.attachable(object) {
-                Aim::Grab(self.me, object, Sign::Positive)
+        let holding = self.state.held_object(self.me).is_some();
+        if self.state.grips[self.other].is_some() {
+            return if other_blocked(others, goal) || other_blocked(there, goal) {
+                self.release_or_stop()
+            } else if holding {
+                self.push_away(object, landmark)
             } else {
-                self.go_to(entity)
+                self.put(object, there.landmark())
             };
         }
-        if !reaches(self.other, there) && !holding {
+        if other_blocked(others, there) {
             return Aim::Stop;
         }
-        if !holding {
-            return if self.attachable(object) {
-                Aim::Grab(self.me, object, Sign::Positive)
-            } else {
-                self.go_to(entity)
-            };
+        let hidden = RoomId::ALL.into_iter().find(|&room| {
+            room != others
+                && room != there
+                && other_blocked(others, room)
+                && !self.rooms().blocked(there, room, self.rules.physics.object_radii[object])
+                && !self.rooms().blocked(here, room, radius(self.me))
+        });
+        if let Some(room) = hidden {
+            return self.put_in_room(object, room);
         }
-        self.drag_away(object).unwrap_or(Aim::AgentToLandmark(self.other, landmark, Sign::Negative))
+        let way = self.rooms().way(others, there).unwrap_or_default();
+        if way.len() > 2 && way[..way.len() - 1].contains(&here) {
+            return Aim::AgentToRoom(self.other, there, Sign::Negative);
+        }
+        if !holding {
+            return Aim::Grab(self.me, object, Sign::Positive);
+        }
+        self.push_away(object, landmark)
     }
 
-    /// Drags an object to the room where it is farthest from the other and still nearer to the agent: a room
-    /// that the other cannot enter with it, if there is one. `None` if there is no such room.
-    fn drag_away(&self, object: ObjectId) -> Option<Aim> {
-        let there = self.room(Entity::Object(object));
-        let length = |from, to| self.rooms().way(from, to).map_or(usize::MAX, |way| way.len());
-        let open = |room: &RoomId| !self.blocked(self.me, there, *room);
-        let hidden = |room: &RoomId| self.blocked(self.other, self.other_room(), *room);
-        let hide = RoomId::ALL.into_iter().find(|room| open(room) && hidden(room));
-        let farthest = || {
-            let rooms = RoomId::ALL.into_iter().filter(open);
-            rooms
-                .filter(|&room| length(there, room) < length(self.other_room(), room))
-                .max_by_key(|&room| length(self.other_room(), room))
-        };
-        let room = hide.or_else(farthest)?;
-        Some(Aim::ObjectToRoom(object, self.rooms().next(there, room)))
+    /// Drags an object to the room where it is farthest from the other and still nearer to the object.
+    fn push_away(&self, object: ObjectId, landmark: LandmarkId) -> Aim {
+        let place = |entity| self.state.position(entity);
+        let (there, others) = (self.room(Entity::Object(object)), self.other_room());
+        let from_other = |room| self.rooms().room_distance(place(Entity::Agent(self.other)), room);
+        let from_object = |room| self.rooms().room_distance(place(Entity::Object(object)), room);
+        let farthest = RoomId::ALL
+            .into_iter()
+            .filter(|&room| room != others && room != there && from_object(room) < from_other(room))
+            .max_by(|&a, &b| from_other(a).total_cmp(&from_other(b)));
+        let _ = landmark;
+        match farthest {
+            Some(room) => Aim::ObjectToRoom(object, self.rooms().next(there, room)),
+            None => Aim::AgentToLandmark(self.other, others.landmark(), Sign::Negative),
+        }
+    }
+
+    /// Puts an object in a room.
+    fn put_in_room(&self, object: ObjectId, room: RoomId) -> Aim {
+        let holding = self.state.held_object(self.me).is_some();
+        if holding {
+            let there = self.room(Entity::Object(object));
+            return if there == room { Aim::Grab(self.me, object, Sign::Negative) } else { Aim::ObjectToRoom(object, self.rooms().next(there, room)) };
+        }
+        self.put(object, room.landmark())
     }
 }

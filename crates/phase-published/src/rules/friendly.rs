@@ -1,11 +1,11 @@
 //! The friendly rules: the other's goal, by what the other cannot do.
 
-use super::{OBJECT_REACHED, View};
-use crate::aim::Aim;
-use phase_model::{AgentId, Entity, Goal, LandmarkId, ObjectId, Sign, arena};
-
-/// An agent that is closer to what it wants to touch needs no help (u): a reward above −0.1.
-const CLOSE: f32 = 0.1 * arena::DIAGONAL;
+use super::View;
+use crate::{
+    aim::Aim,
+    recorded::{OBJECT_REACHED, TOUCH_REACHED},
+};
+use phase_model::{AgentId, Entity, Goal, LandmarkId, ObjectId, Sign};
 
 impl View<'_> {
     /// Helps the other with its goal.
@@ -17,7 +17,7 @@ impl View<'_> {
             Goal::AgentOnLandmark { landmark, sign: Sign::Positive, .. } => self.help_go(landmark),
             Goal::Touch { agent, sign: Sign::Positive, .. } => {
                 // What the other wants to touch is the helper itself.
-                if self.between(Entity::Agent(self.me), Entity::Agent(agent)) < CLOSE {
+                if self.between(Entity::Agent(self.me), Entity::Agent(agent)) < TOUCH_REACHED {
                     self.release_or_stop()
                 } else {
                     self.go_to(Entity::Agent(agent))
@@ -53,11 +53,11 @@ impl View<'_> {
         }
         let other_reaches_it = reaches(self.other, there);
         let other_reaches_goal = reaches(self.other, goal);
-        if other_reaches_goal && !other_reaches_it && i_reach_it {
-            return self.bring(object);
+        if other_reaches_goal && !other_reaches_it {
+            return if i_reach_it { self.bring(object) } else { Aim::Stop };
         }
         if other_reaches_it && !other_reaches_goal {
-            return if i_reach_it { self.put(object, landmark) } else { Aim::Stop };
+            return if i_reach_goal { self.put(object, landmark) } else { Aim::Stop };
         }
         Aim::ObjectToLandmark(object, landmark, Sign::Positive)
     }
@@ -67,13 +67,13 @@ impl View<'_> {
         let entity = Entity::Object(object);
         let there = self.room(entity);
         let wanted = self.other_room();
-        if there == wanted && self.between(Entity::Agent(self.other), entity) < CLOSE {
+        if there == wanted && self.between(Entity::Agent(self.other), entity) < TOUCH_REACHED {
             return self.release_or_stop();
         }
         if !self.state.holds(self.me, object) {
             return self.put(object, wanted.landmark());
         }
-        if there == wanted {
+        if self.my_room() == wanted {
             Aim::Touch(self.other, entity, Sign::Positive)
         } else {
             Aim::ObjectToRoom(object, self.rooms().next(there, wanted))

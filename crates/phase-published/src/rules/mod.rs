@@ -4,18 +4,11 @@ mod adversarial;
 mod friendly;
 mod neutral;
 
-use crate::{aim::Aim, rooms::Rooms, senses::in_view};
+use crate::{aim::Aim, recorded::CARRYING_WIDTH, rooms::Rooms, senses::{attachable, in_view}};
 use phase_model::{
-    AGENT_COUNT, Action, AgentId, Attitude, Entity, Goal, LandmarkId, ObjectId, PhysicsConfig, RoomId, Sign,
+    AGENT_COUNT, AgentId, Attitude, Entity, Goal, LandmarkId, ObjectId, PhysicsConfig, RoomId, Sign,
     State, arena, layout::room_of,
 };
-
-/// An agent is on a landmark within this distance (u): a reward above −0.02.
-pub(crate) const AGENT_REACHED: f32 = 0.02 * arena::DIAGONAL;
-/// An object is on a landmark within this distance (u): a reward above −0.05.
-pub(crate) const OBJECT_REACHED: f32 = 0.05 * arena::DIAGONAL;
-/// Width of an agent that carries, for doors: one and a half times its size on each side.
-const CARRYING_WIDTH: f32 = 1.5;
 
 /// The facts that the rules look at: the map, the bodies, goals and attitudes.
 #[derive(Clone, Debug)]
@@ -25,34 +18,24 @@ pub(crate) struct Rules {
     pub(crate) agent: AgentId,
     pub(crate) goals: [Goal; AGENT_COUNT],
     pub(crate) attitude: Attitude,
-    /// Whether the other hinders.
-    pub(crate) hindered: bool,
 }
 
 impl Rules {
-    /// The actions to choose from for a subgoal. One who is hindered on the way to a landmark, with the other
-    /// in the same room of it, may push in all directions, as the other may who wants it elsewhere.
-    pub(crate) fn actions(&self, aim: Aim, state: &State) -> &'static [Action] {
-        let room = |agent| room_of(state.position(Entity::Agent(agent)));
-        let wrestles = match aim {
-            Aim::AgentToLandmark(agent, landmark, _) => {
-                self.hindered
-                    && agent == self.agent
-                    && AgentId::ALL.iter().all(|&agent| room(agent) == landmark.room())
-            }
-            _ => false,
-        };
-        aim.actions(self.agent, wrestles, &self.rooms, &self.physics, state)
-    }
-
     /// The subgoal in one possible state of the world.
     pub(crate) fn aim(&self, state: &State) -> Aim {
         let view = View { rules: self, state, me: self.agent, other: self.agent.other() };
-        let others = self.goals[self.agent.other()];
         match self.attitude {
-            Attitude::Neutral => view.neutral(self.goals[self.agent]),
-            Attitude::Help => view.friendly(others),
-            Attitude::Hinder => view.adversarial(others),
+            Attitude::Neutral => view.neutral(self.goal()),
+            Attitude::Help => view.friendly(self.goal()),
+            Attitude::Hinder => view.adversarial(self.goal()),
+        }
+    }
+
+    /// The goal that the agent is concerned with: its own, or the other's if it helps or hinders.
+    pub(crate) fn goal(&self) -> Goal {
+        match self.attitude {
+            Attitude::Neutral => self.goals[self.agent],
+            Attitude::Help | Attitude::Hinder => self.goals[self.agent.other()],
         }
     }
 }
@@ -108,8 +91,7 @@ impl View<'_> {
 
     /// Whether it could grab an object now.
     fn attachable(&self, object: ObjectId) -> bool {
-        let found = self.state.attachable(&self.rules.physics, self.me);
-        found.is_some_and(|(found, _)| found == object)
+        attachable(&self.rules.physics, self.state, self.me, object)
     }
 
     fn sees(&self, entity: Entity) -> bool {

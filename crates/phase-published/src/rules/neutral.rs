@@ -1,7 +1,10 @@
 //! The neutral rules: one's own goal.
 
-use super::{AGENT_REACHED, OBJECT_REACHED, View};
-use crate::aim::Aim;
+use super::View;
+use crate::{
+    aim::Aim,
+    recorded::{AGENT_REACHED, OBJECT_REACHED},
+};
 use phase_model::{Entity, Goal, LandmarkId, ObjectId, RoomId, Sign};
 
 impl View<'_> {
@@ -46,7 +49,7 @@ impl View<'_> {
     /// The next room on the way; `None` if it is there.
     pub(super) fn towards(&self, room: RoomId) -> Option<Aim> {
         let here = self.my_room();
-        (here != room).then(|| Aim::AgentToRoom(self.me, self.rooms().next(here, room)))
+        (here != room).then(|| Aim::AgentToRoom(self.me, self.rooms().next(here, room), Sign::Positive))
     }
 
     /// Puts an object on a landmark: goes there, grabs it, drags it room by room, releases it.
@@ -55,7 +58,7 @@ impl View<'_> {
         let done = self.landmark_distance(entity, landmark) < OBJECT_REACHED;
         let aim = Aim::ObjectToLandmark(object, landmark, Sign::Positive);
         let release = Aim::Grab(self.me, object, Sign::Negative);
-        let holding = self.state.holds(self.me, object);
+        let holding = self.state.held_object(self.me).is_some();
         let goal = landmark.room();
         let both_hold = self.state.grips.iter().all(Option::is_some);
         if !self.rooms().is_open() && both_hold && self.blocked(self.me, self.my_room(), goal) {

@@ -81,7 +81,7 @@ fn action_sets_follow_the_subgoal() {
     let free = scene.initial_state();
     let mut holding = free;
     hold(&mut holding, ME);
-    let count = |aim: Aim, state| aim.actions(ME, false, &rooms, &physics, state).len();
+    let count = |aim: Aim, state| aim.actions(ME, false, state).len();
     let positive = Sign::Positive;
     let landmark = LandmarkId::TOP_LEFT;
     assert_eq!(count(Aim::AgentToLandmark(ME, landmark, positive), &free), 5);
