@@ -47,6 +47,7 @@ impl Mind {
         Ok(Self {
             imagined: if parameters.collisions { imagined } else { imagined.without_collisions() },
             rules: Rules {
+                layout: scene.layout,
                 rooms: Rooms::new(scene.layout),
                 physics,
                 agent,

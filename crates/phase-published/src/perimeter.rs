@@ -21,9 +21,10 @@ impl Perimeter {
         let mut perimeter = Self::default();
         match Outline::of(physics, entity, body) {
             Outline::Trapezoid(corners) => {
+                // Clockwise: the cells of a line depend on its direction.
                 let corners = corners.map(grid_place);
                 for k in 0..corners.len() {
-                    line(corners[k], corners[(k + 1) % corners.len()], |place| perimeter.add(place));
+                    line(corners[(k + 1) % corners.len()], corners[k], |place| perimeter.add(place));
                 }
             }
             Outline::Disc { centre, radius } => {

@@ -16,9 +16,14 @@ pub(crate) const OBJECT_REACHED: f32 = 0.05 * DIAGONAL;
 pub(crate) const TOUCH_REACHED: f32 = 0.1 * DIAGONAL;
 /// Width of an agent that carries, for doors: one and a half times its size on each side (A, `plan_*`).
 pub(crate) const CARRYING_WIDTH: f32 = 1.5;
+/// The layout in which a hinderer carries a small object to the first room if the other is small, too (A,
+/// `put_hinder`).
+pub(crate) const SMALL_PLUG_BASE: u8 = 4;
 
 /// Factor by which outlines are enlarged to tell whether bodies touch (G, `calculate_collision`).
 pub(crate) const TOUCH_SCALE: f32 = 1.2;
+/// Where a ray crosses a wall is rounded to this (u) (G, `_update_FOV`).
+pub(crate) const SIGHT_GRAIN: f32 = 0.01;
 /// Points on an object's circle whose cells are its perimeter (G, `update_observations`).
 pub(crate) const CIRCLE_POINTS: usize = 16;
 /// Points are rounded down to multiples of this before their cells are looked up (u) (G, `_update_FOV`).

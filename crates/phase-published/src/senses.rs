@@ -1,13 +1,16 @@
 //! The observations of an agent of the published simulator: a cone of cells with occlusion, touch by scaled
 //! outlines, and one link of what touches what is observed.
 
-use crate::{perimeter::Perimeter, recorded::TOUCH_SCALE};
+use crate::{perimeter::Perimeter, recorded::{SIGHT_GRAIN, TOUCH_SCALE}};
 use phase_model::{
     AgentId, BodySet, Entity, ObjectId, PhysicsConfig, Segment, Side, State, Vec2,
     geometry::{self, Outline},
     physics::GRAB_REACH,
 };
 use phase_perception::{Cell, CellSet, Observation, viewpoint::TAN_HALF_ANGLE};
+
+/// Error of rounding in single precision (u).
+const SIGHT_TOLERANCE: f32 = 1e-4;
 
 /// Everything an agent observes of a state.
 #[must_use]
@@ -138,8 +141,7 @@ impl<'a> Eye<'a> {
         if ahead <= 0.0 || across.abs() >= TAN_HALF_ANGLE * ahead {
             return false;
         }
-        let sight = Segment { a: self.apex, b: point };
-        if self.physics.walls.iter().any(|wall| wall.crosses(sight)) {
+        if self.physics.walls.iter().any(|wall| hides(wall, self.apex, ray)) {
             return false;
         }
         let length_squared = ray.length_squared();
@@ -151,4 +153,23 @@ impl<'a> Eye<'a> {
                 && centre.distance_squared(point) <= length_squared
         })
     }
+}
+
+/// Whether a wall crosses a ray that begins at a point. Where on the wall is rounded, so that one that ends a
+/// hair beside the ray hides as well.
+fn hides(wall: &Segment, from: Vec2, ray: Vec2) -> bool {
+    let along = wall.b - wall.a;
+    let denominator = ray.perp_dot(along);
+    if denominator == 0.0 {
+        return false;
+    }
+    let to = wall.a - from;
+    let on_ray = to.perp_dot(along) / denominator;
+    if !(0.0..=1.0).contains(&on_ray) {
+        return false;
+    }
+    let rounded = |it: Vec2| (it / SIGHT_GRAIN).round() * SIGHT_GRAIN;
+    let place = rounded(from + ray * on_ray);
+    let (min, max) = (wall.a.min(wall.b) - SIGHT_TOLERANCE, wall.a.max(wall.b) + SIGHT_TOLERANCE);
+    place.cmpge(min).all() && place.cmple(max).all()
 }

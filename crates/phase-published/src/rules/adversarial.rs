@@ -1,8 +1,8 @@
 //! The adversarial rules: against the other's goal.
 
 use super::View;
-use crate::aim::Aim;
-use phase_model::{AgentId, Entity, Goal, LandmarkId, ObjectId, RoomId, Sign};
+use crate::{aim::Aim, recorded::SMALL_PLUG_BASE};
+use phase_model::{AgentId, Entity, Goal, LandmarkId, ObjectId, RoomId, Sign, Size};
 
 impl View<'_> {
     /// Hinders the other in its goal.
@@ -11,6 +11,10 @@ impl View<'_> {
             Goal::AgentOnLandmark { landmark, sign: Sign::Positive, .. } => self.hinder_going(landmark),
             Goal::ObjectOnLandmark { object, landmark, sign: Sign::Positive } => {
                 self.hinder_putting(object, landmark)
+            }
+            // Whomever the other wants to touch, the original takes it for the first object.
+            Goal::Touch { sign: Sign::Positive, .. } if self.rules.physics.object_count > 0 => {
+                self.hinder_touching(ObjectId::ZERO)
             }
             _ => goal.negated().into(),
         }
@@ -30,8 +34,7 @@ impl View<'_> {
             }
             return self.towards(goal).unwrap_or(negated);
         }
-        let radius = self.rules.physics.agents[self.other].radius;
-        if self.rooms().blocked(there, goal, radius) {
+        if self.other_cannot(there, goal) {
             return Aim::Stop;
         }
         let way = self.rooms().way(there, goal).unwrap_or_default();
@@ -44,9 +47,9 @@ impl View<'_> {
         self.stand_on(&way).unwrap_or(negated)
     }
 
-    /// The room beside the first door on the other's way that is too narrow for the first object, where the
-    /// object closes the door: across the door if it lies beside it, else the nearer one. `None` if there is
-    /// no such door, or the agent's way there is not shorter than the other's.
+    /// The room beside a door on the other's way that is too narrow for the first object, where the object
+    /// closes the door: across the first such door that it lies beside, or the nearer one if the agent gets
+    /// it there before the other comes. `None` if there is no such door.
     fn room_to_plug(&self, way: &[RoomId]) -> Option<RoomId> {
         if self.rules.physics.object_count == 0 {
             return None;
@@ -54,19 +57,22 @@ impl View<'_> {
         let object = ObjectId::ZERO;
         let diameter = 2.0 * self.rules.physics.object_radii[object];
         let here = self.room(Entity::Object(object));
-        let door = way.windows(2).find(|pair| {
-            self.rooms().door(pair[0], pair[1]).is_some_and(|door| door.length() < diameter)
-        })?;
-        let (before, after) = (door[0], door[1]);
-        if here == before {
-            return Some(after);
-        }
-        if here == after {
-            return Some(before);
-        }
-        let fetch = if self.state.holds(self.me, object) { 0 } else { self.steps(self.my_room(), here)? };
-        let room = [after, before].into_iter().min_by_key(|&room| self.steps(here, room))?;
-        (fetch + self.steps(here, room)? < way.len() - 1).then_some(room)
+        let fetch =
+            if self.state.holds(self.me, object) { Some(0) } else { self.steps(self.my_room(), here) };
+        way.windows(2).enumerate().find_map(|(others_steps, pair)| {
+            let (before, after) = (pair[0], pair[1]);
+            if self.rooms().door(before, after)?.length() >= diameter {
+                return None;
+            }
+            if here == before {
+                return Some(after);
+            }
+            if here == after {
+                return Some(before);
+            }
+            let room = [after, before].into_iter().min_by_key(|&room| self.steps(here, room))?;
+            (fetch? + self.steps(here, room)? < others_steps).then_some(room)
+        })
     }
 
     /// The number of doors on the way from one room to another; `None` where there is no way.
@@ -80,6 +86,7 @@ impl View<'_> {
         let nearest = way
             .iter()
             .enumerate()
+            .filter(|&(_, &room)| room != here)
             .filter(|&(k, &room)| way.get(k + 1).is_none_or(|&next| self.rooms().walled(room, next)))
             .filter_map(|(_, &room)| Some((self.steps(here, room)?, room)))
             .min_by_key(|&(length, _)| length);
@@ -88,75 +95,132 @@ impl View<'_> {
 
     /// Keeps an object off a landmark.
     fn hinder_putting(&self, object: ObjectId, landmark: LandmarkId) -> Aim {
-        let negated = Aim::ObjectToLandmark(object, landmark, Sign::Negative);
         if self.rooms().is_open() {
-            return negated;
+            return Aim::ObjectToLandmark(object, landmark, Sign::Negative);
         }
-        let entity = Entity::Object(object);
-        let (there, goal, here, others) = (self.room(entity), landmark.room(), self.my_room(), self.other_room());
-        let radius = |agent: AgentId| self.rules.physics.agents[agent].radius;
-        let other_blocked = |from, to| self.rooms().blocked(from, to, radius(self.other));
-        if self.rooms().blocked(here, there, radius(self.me)) {
-            let helpless = self.state.grips[self.other].is_some() || others == there;
-            return if helpless { Aim::Stop } else { Aim::AgentToRoom(self.other, there, Sign::Negative) };
+        let (there, others) = (self.object_room(object), self.other_room());
+        let radii = [self.radius(self.other), self.rules.physics.object_radii[object]];
+        if self.rules.layout.base() == SMALL_PLUG_BASE && radii.iter().all(|&it| it == Size::Small.radius()) {
+            return if self.other_cannot(others, there) {
+                Aim::Stop
+            } else {
+                self.put_in_room(object, self.rules.room(RoomId::TOP_LEFT))
+            };
+        }
+        let goal = landmark.room();
+        if let Some(aim) = self.out_of_reach(object) {
+            return aim;
         }
         let holding = self.state.held_object(self.me).is_some();
+        let last = Aim::AgentToLandmark(self.other, others.landmark(), Sign::Negative);
         if self.state.grips[self.other].is_some() {
-            return if other_blocked(others, goal) || other_blocked(there, goal) {
+            return if self.other_cannot(others, goal) || self.other_cannot(there, goal) {
                 self.release_or_stop()
             } else if holding {
-                self.push_away(object, landmark)
+                self.drag_away(object).unwrap_or(last)
             } else {
                 self.put(object, there.landmark())
             };
         }
-        if other_blocked(others, there) {
+        if self.other_cannot(others, there) {
             return Aim::Stop;
         }
+        if let Some(aim) = self.keep_apart(object) {
+            return aim;
+        }
+        if holding { self.drag_away(object).unwrap_or(last) } else { Aim::Grab(self.me, object, Sign::Positive) }
+    }
+
+    /// Keeps an object away from the other.
+    fn hinder_touching(&self, object: ObjectId) -> Aim {
+        let away = Aim::Touch(self.other, Entity::Object(object), Sign::Negative);
+        let stay = || self.put(object, self.object_room(object).landmark());
+        let holding = self.state.held_object(self.me).is_some();
+        if self.rooms().is_open() {
+            return if holding { away } else { stay() };
+        }
+        if let Some(aim) = self.out_of_reach(object) {
+            return aim;
+        }
+        if self.other_cannot(self.other_room(), self.object_room(object)) {
+            return self.release_or_stop();
+        }
+        if self.is_taken(object) {
+            return if holding { away } else { stay() };
+        }
+        if let Some(aim) = self.keep_apart(object) {
+            return aim;
+        }
+        if holding { self.drag_away(object).unwrap_or(away) } else { stay() }
+    }
+
+    /// Whether the other holds something or is in the room of an object.
+    fn is_taken(&self, object: ObjectId) -> bool {
+        self.state.grips[self.other].is_some() || self.other_room() == self.object_room(object)
+    }
+
+    /// What to do about an object that the agent cannot reach; `None` if it can.
+    fn out_of_reach(&self, object: ObjectId) -> Option<Aim> {
+        let there = self.object_room(object);
+        if !self.rooms().blocked(self.my_room(), there, self.radius(self.me)) {
+            return None;
+        }
+        Some(if self.is_taken(object) { Aim::Stop } else { Aim::AgentToRoom(self.other, there, Sign::Negative) })
+    }
+
+    /// What to do where walls can keep an object from the other; `None` if they cannot.
+    fn keep_apart(&self, object: ObjectId) -> Option<Aim> {
+        let (here, there, others) = (self.my_room(), self.object_room(object), self.other_room());
         let hidden = RoomId::ALL.into_iter().find(|&room| {
             room != others
                 && room != there
-                && other_blocked(others, room)
+                && self.other_cannot(others, room)
                 && !self.rooms().blocked(there, room, self.rules.physics.object_radii[object])
-                && !self.rooms().blocked(here, room, radius(self.me))
+                && !self.rooms().blocked(here, room, self.radius(self.me))
         });
         if let Some(room) = hidden {
-            return self.put_in_room(object, room);
+            return Some(self.put_in_room(object, room));
         }
         let way = self.rooms().way(others, there).unwrap_or_default();
-        if way.len() > 2 && way[..way.len() - 1].contains(&here) {
-            return Aim::AgentToRoom(self.other, there, Sign::Negative);
-        }
-        if !holding {
-            return Aim::Grab(self.me, object, Sign::Positive);
-        }
-        self.push_away(object, landmark)
+        let is_between = way.len() > 2 && way[1..way.len() - 1].contains(&here);
+        // Whatever the way, the original names the room with number 3.
+        is_between
+            .then(|| Aim::AgentToRoom(self.other, self.rules.room(RoomId::BOTTOM_LEFT), Sign::Negative))
     }
 
-    /// Drags an object to the room where it is farthest from the other and still nearer to the object.
-    fn push_away(&self, object: ObjectId, landmark: LandmarkId) -> Aim {
-        let place = |entity| self.state.position(entity);
-        let (there, others) = (self.room(Entity::Object(object)), self.other_room());
-        let from_other = |room| self.rooms().room_distance(place(Entity::Agent(self.other)), room);
-        let from_object = |room| self.rooms().room_distance(place(Entity::Object(object)), room);
-        let farthest = RoomId::ALL
+    /// Drags an object to the room farthest from it that is nearer to it than to the other. `None` if there is
+    /// none.
+    fn drag_away(&self, object: ObjectId) -> Option<Aim> {
+        let (there, others) = (self.object_room(object), self.other_room());
+        let far_from = |entity| move |room| self.rooms().room_distance(self.state.position(entity), room);
+        let (from_object, from_other) = (far_from(Entity::Object(object)), far_from(Entity::Agent(self.other)));
+        let room = RoomId::ALL
             .into_iter()
             .filter(|&room| room != others && room != there && from_object(room) < from_other(room))
-            .max_by(|&a, &b| from_other(a).total_cmp(&from_other(b)));
-        let _ = landmark;
-        match farthest {
-            Some(room) => Aim::ObjectToRoom(object, self.rooms().next(there, room)),
-            None => Aim::AgentToLandmark(self.other, others.landmark(), Sign::Negative),
-        }
+            .max_by(|&a, &b| from_object(a).total_cmp(&from_object(b)))?;
+        Some(Aim::ObjectToRoom(object, self.rooms().next(there, room)))
+    }
+
+    fn object_room(&self, object: ObjectId) -> RoomId {
+        self.room(Entity::Object(object))
+    }
+
+    fn radius(&self, agent: AgentId) -> f32 {
+        self.rules.physics.agents[agent].radius
+    }
+
+    /// Whether a door on the way is too narrow for the other.
+    fn other_cannot(&self, from: RoomId, to: RoomId) -> bool {
+        self.rooms().blocked(from, to, self.radius(self.other))
     }
 
     /// Puts an object in a room.
     fn put_in_room(&self, object: ObjectId, room: RoomId) -> Aim {
         let holding = self.state.held_object(self.me).is_some();
+        let there = self.room(Entity::Object(object));
         if holding {
-            let there = self.room(Entity::Object(object));
             return if there == room { Aim::Grab(self.me, object, Sign::Negative) } else { Aim::ObjectToRoom(object, self.rooms().next(there, room)) };
         }
-        self.put(object, room.landmark())
+        if there == room { Aim::Stop } else { self.put(object, room.landmark()) }
     }
 }

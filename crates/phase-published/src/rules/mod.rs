@@ -6,13 +6,14 @@ mod neutral;
 
 use crate::{aim::Aim, recorded::CARRYING_WIDTH, rooms::Rooms, senses::{attachable, in_view}};
 use phase_model::{
-    AGENT_COUNT, AgentId, Attitude, Entity, Goal, LandmarkId, ObjectId, PhysicsConfig, RoomId, Sign,
+    AGENT_COUNT, AgentId, Attitude, Entity, Goal, LandmarkId, Layout, ObjectId, PhysicsConfig, RoomId, Sign,
     State, arena, layout::room_of,
 };
 
 /// The facts that the rules look at: the map, the bodies, goals and attitudes.
 #[derive(Clone, Debug)]
 pub(crate) struct Rules {
+    pub(crate) layout: Layout,
     pub(crate) rooms: Rooms,
     pub(crate) physics: PhysicsConfig,
     pub(crate) agent: AgentId,
@@ -29,6 +30,11 @@ impl Rules {
             Attitude::Help => view.friendly(self.goal()),
             Attitude::Hinder => view.adversarial(self.goal()),
         }
+    }
+
+    /// A room of the layout before reflection, as it is now.
+    pub(crate) fn room(&self, room: RoomId) -> RoomId {
+        self.layout.flip().map_or(room, |flip| flip.room(room))
     }
 
     /// The goal that the agent is concerned with: its own, or the other's if it helps or hinders.

@@ -194,7 +194,7 @@ pub(crate) struct Tally {
 
 impl Tally {
     pub(crate) fn add(&mut self, equal: bool, what: impl FnOnce() -> String) {
-        const SHOWN: usize = 8;
+        const SHOWN: usize = 40;
         if equal {
             self.equal += 1;
         } else {
