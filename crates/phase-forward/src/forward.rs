@@ -18,7 +18,7 @@ use phase_model::{AGENT_COUNT, Action, Dynamics, PhysicsConfig, State, arena::SU
 /// At most two objects and four inner walls are used, which is all that PHASE has; more are ignored.
 #[derive(Clone, Debug)]
 pub struct Forward {
-    model: Model,
+    pub(crate) model: Model,
 }
 
 impl Forward {
@@ -26,20 +26,6 @@ impl Forward {
     #[must_use]
     pub fn new(physics: &PhysicsConfig) -> Self {
         Self { model: Model::new(physics) }
-    }
-
-    /// The dynamics as the published planner imagines them: pushes act at the agent's origin, and an object
-    /// that is held at the start of a step hangs on a spring of 100 Hz between the two origins, free to
-    /// pivot, which keeps their distance. Only [`Dynamics::step`] follows this; coarse steps move holder and
-    /// object as one.
-    #[must_use]
-    pub fn imagined(physics: &PhysicsConfig) -> Self {
-        let mut model = Model::new(physics);
-        model.imagined = true;
-        for shape in &mut model.shapes[..AGENT_COUNT] {
-            shape.push_point = shape.origin;
-        }
-        Self { model }
     }
 
     /// These dynamics without collisions between bodies, as if they were points for each other: agents and
@@ -188,7 +174,7 @@ impl Forward {
 
     /// Several substeps of a body that cannot reach anything.
     #[inline]
-    fn drift(&self, world: &mut World<'_>, body: usize, substeps: usize) {
+    pub(crate) fn drift(&self, world: &mut World<'_>, body: usize, substeps: usize) {
         let shape = &self.model.shapes[body];
         let motion = &mut world.motions[body];
         let (action, max_force) = if body < AGENT_COUNT {
@@ -225,7 +211,7 @@ impl Forward {
         }
     }
 
-    fn substep_warm(&self, world: &mut World<'_>, solver_cache: &mut SolverCache, touching: &mut ContactSet) {
+    pub(crate) fn substep_warm(&self, world: &mut World<'_>, solver_cache: &mut SolverCache, touching: &mut ContactSet) {
         solver_cache.drop_stale(world);
         world.all_moved();
         world.outline(self.model.everyone());

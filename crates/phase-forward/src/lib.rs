@@ -104,6 +104,7 @@ mod finish;
 mod forward;
 mod grasp;
 mod group;
+mod imagined;
 mod key;
 mod manifold;
 mod model;
@@ -124,4 +125,5 @@ mod world;
 
 pub use exertion::Exertion;
 pub use forward::Forward;
+pub use imagined::Imagined;
 pub use solver_cache::SolverCache;

@@ -1,7 +1,7 @@
 //! The published planner's idea of the dynamics: a held object hangs on a spring that keeps its distance and
 //! no more.
 
-use phase_forward::Forward;
+use phase_forward::{Forward, Imagined};
 use phase_model::{
     Action, AgentBody, AgentId, Body, Dynamics, Entity, Grip, ObjectId, PhysicsConfig, Side, State, Vec2,
 };
@@ -43,7 +43,7 @@ fn step(forward: &Forward, mut state: State, action: Action) -> State {
 fn pushed_straight_both_models_carry_alike() {
     let mass = 4.0 * RADIUS * RADIUS + core::f32::consts::PI * RADIUS * RADIUS;
     let expected = (450.0 - 200.0) * 15.0 / (3600.0 * mass);
-    for forward in [Forward::new(&physics()), Forward::imagined(&physics())] {
+    for forward in [Forward::new(&physics()), Imagined::new(&physics())] {
         let after = step(&forward, holding(true), Action::Up);
         for (entity, start) in [(ME, 8.0), (BALL, 8.0 + 2.0 * RADIUS)] {
             let moved = after.position(entity).y - start;
@@ -56,7 +56,7 @@ fn pushed_straight_both_models_carry_alike() {
 /// along.
 #[test]
 fn turning_leaves_the_object_where_it_is() {
-    let imagined = Forward::imagined(&physics());
+    let imagined = Imagined::new(&physics());
     let free = step(&imagined, holding(false), Action::TurnLeft).body(ME).angle;
     let after = step(&imagined, holding(true), Action::TurnLeft);
     assert!((free - 1.0172).abs() < 1e-3, "{free}");
@@ -69,7 +69,7 @@ fn turning_leaves_the_object_where_it_is() {
 /// Whatever the agent does, the distance of the two origins stays.
 #[test]
 fn the_distance_stays() {
-    let imagined = Forward::imagined(&physics());
+    let imagined = Imagined::new(&physics());
     let mut state = holding(true);
     for action in Action::ALL.into_iter().filter(|&action| action != Action::Detach) {
         for _ in 0..3 {
@@ -85,7 +85,7 @@ fn the_distance_stays() {
 #[test]
 fn lateral_pushes_turn_twice_as_much() {
     let turn = |forward: Forward| step(&forward, holding(false), Action::Left).body(ME).angle;
-    let (real, imagined) = (turn(Forward::new(&physics())), turn(Forward::imagined(&physics())));
+    let (real, imagined) = (turn(Forward::new(&physics())), turn(Imagined::new(&physics())));
     assert!(real * imagined > 0.0 && imagined.abs() > real.abs(), "{real}, {imagined}");
 }
 
@@ -93,7 +93,7 @@ fn lateral_pushes_turn_twice_as_much() {
 #[test]
 fn a_fresh_grip_is_a_weld() {
     let apart = holding(false);
-    let [real, imagined] = [Forward::new(&physics()), Forward::imagined(&physics())]
+    let [real, imagined] = [Forward::new(&physics()), Imagined::new(&physics())]
         .map(|forward| step(&forward, apart, Action::Attach));
     assert_eq!(real.grips[0].map(|grip| grip.side), Some(Side::Head));
     assert!((imagined.position(BALL) - real.position(BALL)).length() < 1e-5);

@@ -53,7 +53,7 @@ impl Aim {
 
     /// The distance that the reward of a state charges, or credits with a negative sign (u).
     #[must_use]
-    pub fn distance(self, rooms: &Rooms, state: &State) -> f32 {
+    pub fn distance(self, rooms: &Rooms, state: &State) -> f64 {
         let at = |entity| state.position(entity);
         match self {
             Self::Stop => 0.0,
@@ -85,7 +85,7 @@ impl Aim {
     #[must_use]
     pub fn reward(self, rooms: &Rooms, state: &State, action: Action) -> f64 {
         let sign = f64::from(self.sign().value());
-        -sign * f64::from(self.distance(rooms, state) / DIAGONAL)
+        -sign * self.distance(rooms, state) / DIAGONAL
             + phase_model::reward::action_cost(action)
     }
 

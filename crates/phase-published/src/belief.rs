@@ -2,7 +2,7 @@
 
 use crate::{recorded::INITIAL_REACH, redraw::Redraw, senses::observe};
 use phase_belief::overwrite;
-use phase_forward::Forward;
+use phase_forward::Imagined;
 use phase_model::{
     AGENT_COUNT, Action, AgentId, Body, Dynamics, Entity, Flip, Layout, MAX_ENTITIES, PhysicsConfig, State,
     Vec2, arena,
@@ -15,7 +15,7 @@ use rand::{Rng, RngExt};
 pub struct Belief {
     agent: AgentId,
     physics: PhysicsConfig,
-    imagined: Forward,
+    imagined: Imagined,
     flip: Option<Flip>,
     particles: Vec<State>,
     /// Every cell ever seen.
@@ -54,7 +54,7 @@ impl Belief {
             .collect();
         let mut belief = Self {
             agent: observation.agent,
-            imagined: Forward::imagined(physics),
+            imagined: Imagined::new(physics),
             physics: physics.clone(),
             flip,
             particles,

@@ -71,6 +71,7 @@ mod rules;
 mod search;
 mod selection;
 pub mod senses;
+mod stream;
 
 pub use aim::Aim;
 pub use belief::Belief;
@@ -79,3 +80,4 @@ pub use mind::Mind;
 pub use parameters::PublishedParameters;
 pub use redraw::Redraw;
 pub use rooms::Rooms;
+pub use stream::RandomNumbers;

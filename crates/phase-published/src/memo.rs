@@ -26,22 +26,31 @@ type Entries = BTreeMap<(AgentId, u64, Aim), Vec<Entry>>;
 struct Entry {
     physics: PhysicsConfig,
     parameters: PublishedParameters,
-    actions: &'static [Action],
+    actions: Vec<Action>,
     roots: Vec<State>,
-    found: Vec<ActionEvaluation>,
+    found: Findings,
 }
 
 /// A search that is to be done.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Search<'a> {
     pub(crate) agent: AgentId,
-    /// The seed of its random numbers.
+    /// The seed of its random numbers, or how many words of the original's stream were drawn before.
     pub(crate) seed: u64,
     pub(crate) aim: Aim,
     pub(crate) physics: &'a PhysicsConfig,
     pub(crate) parameters: &'a PublishedParameters,
-    pub(crate) actions: &'static [Action],
+    pub(crate) actions: &'a [Action],
     pub(crate) roots: &'a [State],
+}
+
+/// What the searches of one decision found.
+#[derive(Clone, Debug)]
+pub(crate) struct Findings {
+    pub(crate) action: Action,
+    pub(crate) evaluations: Vec<ActionEvaluation>,
+    /// Words of the original's stream drawn until then; 0 with other random numbers.
+    pub(crate) drawn: u64,
 }
 
 impl Search<'_> {
@@ -59,7 +68,7 @@ impl Search<'_> {
 
 impl SearchMemo {
     /// The findings of this search, if it was done before.
-    pub(crate) fn recall(&self, search: &Search<'_>) -> Option<Vec<ActionEvaluation>> {
+    pub(crate) fn recall(&self, search: &Search<'_>) -> Option<Findings> {
         // Entries are only ever added whole, so those of a thread that panicked are sound.
         let entries = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         let entry = entries.get(&search.key())?.iter().find(|entry| search.is(entry))?;
@@ -67,13 +76,13 @@ impl SearchMemo {
     }
 
     /// Keeps what a search has found.
-    pub(crate) fn keep(&self, search: &Search<'_>, found: &[ActionEvaluation]) {
+    pub(crate) fn keep(&self, search: &Search<'_>, found: &Findings) {
         let entry = Entry {
             physics: search.physics.clone(),
             parameters: *search.parameters,
-            actions: search.actions,
+            actions: search.actions.to_vec(),
             roots: search.roots.to_vec(),
-            found: found.to_vec(),
+            found: found.clone(),
         };
         let mut entries = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         entries.entry(search.key()).or_default().push(entry);

@@ -2,28 +2,31 @@
 
 use crate::{
     aim::Aim,
-    memo::{Search, SearchMemo},
+    memo::{Findings, Search, SearchMemo},
     parameters::PublishedParameters,
     rooms::Rooms,
     rules::Rules,
-    search::SearchModel,
+    search::{self, Task},
     selection::{Proposal, distance_left, proposals, pursued},
+    stream::{Draws, PythonStream, RandomNumbers},
 };
 use phase_event::{ActionEvaluation, SubgoalValue, Thought};
-use phase_forward::Forward;
+use phase_forward::Imagined;
 use phase_model::{
-    Action, AgentId, Scene, State, Subgoal,
+    Action, AgentId, PhysicsConfig, Scene, State, Subgoal,
     random::{Purpose, stream},
 };
-use phase_pomcp::{ActionStatistics, Pomcp, PomcpError, PomcpSettings};
+use phase_pomcp::{PomcpError, PomcpSettings};
 use rand::Rng;
 
 /// The mind of one agent of the published simulator. The belief is an argument of every decision.
 #[derive(Debug)]
 pub struct Mind {
     rules: Rules,
-    imagined: Forward,
-    pomcp: Pomcp<()>,
+    imagined: Imagined,
+    /// Words of the original's stream drawn before this step's decision, and until after it.
+    previous: u64,
+    drawn: u64,
     parameters: PublishedParameters,
     memo: Option<SearchMemo>,
 }
@@ -35,17 +38,12 @@ impl Mind {
     /// [`PomcpError`] for parameters that a search cannot have.
     pub fn new(scene: &Scene, agent: AgentId, parameters: PublishedParameters) -> Result<Self, PomcpError> {
         let physics = scene.physics();
-        let pomcp = Pomcp::new(PomcpSettings {
-            simulations: parameters.simulations,
-            rollout_steps: parameters.rollout_steps,
-            c_init: parameters.c_init,
-            c_base: parameters.c_base,
-            normalise_values: false,
-            ..PomcpSettings::default()
-        })?;
-        let imagined = Forward::imagined(&physics);
+        let PublishedParameters { simulations, rollout_steps, c_init, c_base, .. } = parameters;
+        let settings = PomcpSettings { simulations, rollout_steps, c_init, c_base, ..PomcpSettings::default() };
+        settings.validate()?;
+        let imagined = imagined(&physics, &parameters);
         Ok(Self {
-            imagined: if parameters.collisions { imagined } else { imagined.without_collisions() },
+            imagined,
             rules: Rules {
                 layout: scene.layout,
                 rooms: Rooms::new(scene.layout),
@@ -54,7 +52,8 @@ impl Mind {
                 goals: scene.goals(),
                 attitude: scene.agents[agent].attitude,
             },
-            pomcp,
+            previous: 0,
+            drawn: 0,
             parameters,
             memo: None,
         })
@@ -78,7 +77,7 @@ impl Mind {
     #[must_use]
     pub fn cost(&self, state: &State) -> f64 {
         let Rules { rooms, agent, .. } = &self.rules;
-        self.parameters.lambda * f64::from(distance_left(rooms, *agent, self.rules.goal(), state))
+        self.parameters.lambda * distance_left(rooms, *agent, self.rules.goal(), state)
     }
 
     /// Chooses the next action, given possible states of the world that are all equally likely; returns it
@@ -92,7 +91,11 @@ impl Mind {
         random: &mut impl Rng,
     ) -> Result<(Action, Thought), PomcpError> {
         // Each decision draws one number, so the length of a search does not affect later ones.
-        let seed = random.next_u64();
+        let seed = match self.parameters.random {
+            RandomNumbers::Seeded => random.next_u64(),
+            RandomNumbers::Original => core::mem::take(&mut self.previous),
+        };
+        self.drawn = 0;
         let aims = self.aims(particles);
         let agent = self.rules.agent;
         let costs: Vec<f64> = particles.iter().map(|particle| self.cost(particle)).collect();
@@ -100,7 +103,8 @@ impl Mind {
         let Some(chosen) = pursued(&proposals, agent) else { return Ok((Action::Stop, Thought::IDLE)) };
         let aim = chosen.aim;
         let roots: Vec<State> = chosen.particles.iter().map(|&k| particles[k]).collect();
-        let (action, actions) = self.search(aim, &roots, seed)?;
+        let Findings { action, evaluations: actions, drawn } = self.search(aim, &roots, seed);
+        self.drawn = drawn;
         let thought = Thought {
             subgoal: aim.subgoal(),
             subgoals: proposals.iter().map(summary).collect(),
@@ -108,6 +112,12 @@ impl Mind {
             actions,
         };
         Ok((action, thought))
+    }
+
+    /// Lets the next decision go on in the original's random numbers where another mind's last one ended: the
+    /// second agent's search follows the first one's in the same stream. Without it, the stream begins anew.
+    pub const fn follow(&mut self, first: &Self) {
+        self.previous = first.drawn;
     }
 
     /// The subgoal of each particle; equal ones are thought about once.
@@ -120,72 +130,105 @@ impl Mind {
         aims
     }
 
-    fn search(
-        &mut self,
-        aim: Aim,
-        roots: &[State],
-        seed: u64,
-    ) -> Result<(Action, Vec<ActionEvaluation>), PomcpError> {
-        let Rules { agent, physics, .. } = &self.rules;
+    fn search(&mut self, aim: Aim, roots: &[State], seed: u64) -> Findings {
+        let Rules { agent, physics, layout, .. } = &self.rules;
         let actions = aim.actions(*agent, self.parameters.older_actions, &roots[0]);
-        if let [only] = actions {
-            return Ok((*only, Vec::new()));
+        if let [only] = *actions {
+            return Findings { action: only, evaluations: Vec::new(), drawn: 0 };
         }
-        // Equal particles are one, and the tree's steps can then be cached.
-        let roots = if roots.iter().all(|root| root == &roots[0]) { &roots[..1] } else { roots };
-        let search =
-            Search { agent: *agent, seed, aim, physics, parameters: &self.parameters, actions, roots };
-        let known = self.memo.as_ref().and_then(|memo| memo.recall(&search));
-        let evaluations = if let Some(known) = known {
-            known
-        } else {
-            let found = evaluate(&search, &self.rules.rooms, &self.imagined, &mut self.pomcp)?;
-            if let Some(memo) = &self.memo {
-                memo.keep(&search, &found);
-            }
-            found
+        // The original thinks in the layout before reflection.
+        let actions: Vec<Action> = match layout.flip() {
+            Some(_) => actions.iter().map(|&action| mirrored(action)).collect(),
+            None => actions.to_vec(),
         };
-        // Of equally visited actions the better, of equally good ones the first.
-        let best = evaluations
-            .iter()
-            .rev()
-            .max_by(|a, b| a.visits.cmp(&b.visits).then_with(|| a.value.total_cmp(&b.value)));
-        Ok((best.map_or(Action::Stop, |best| best.action), evaluations))
+        let parameters = &self.parameters;
+        let actions = &actions;
+        let search = Search { agent: *agent, seed, aim, physics, parameters, actions, roots };
+        if let Some(known) = self.memo.as_ref().and_then(|memo| memo.recall(&search)) {
+            return known;
+        }
+        let found = self.evaluate(&search);
+        if let Some(memo) = &self.memo {
+            memo.keep(&search, &found);
+        }
+        found
     }
-}
 
-/// Searches as often as the parameters say, and adds up what is found.
-fn evaluate(
-    search: &Search<'_>,
-    rooms: &Rooms,
-    imagined: &Forward,
-    pomcp: &mut Pomcp<()>,
-) -> Result<Vec<ActionEvaluation>, PomcpError> {
-    let Search { agent, aim, actions, parameters, .. } = *search;
-    let model = SearchModel { agent, aim, actions, rooms, imagined, discount: parameters.discount };
-    let mut random = stream(search.seed, Purpose::Search, 0);
-    let nothing = |&action: &Action| ActionEvaluation { action, visits: 0, value: 0.0 };
-    let mut evaluations: Vec<ActionEvaluation> = actions.iter().map(nothing).collect();
-    for _ in 0..parameters.searches.max(1) {
-        let found = pomcp.search(&model, search.roots, &mut random)?;
-        for (evaluation, found) in evaluations.iter_mut().zip(&found.actions) {
-            add(evaluation, found);
+    /// Searches as often as the parameters say, and adds up what is found.
+    fn evaluate(&self, search: &Search<'_>) -> Findings {
+        match self.parameters.random {
+            RandomNumbers::Seeded => self.search_with(search, &mut stream(search.seed, Purpose::Search, 0)),
+            RandomNumbers::Original => {
+                let mut draws = PythonStream::after(search.seed);
+                let found = self.search_with(search, &mut draws);
+                Findings { drawn: draws.drawn(), ..found }
+            }
         }
     }
-    Ok(evaluations)
+
+    fn search_with(&self, search: &Search<'_>, draws: &mut impl Draws) -> Findings {
+        let Search { agent, aim, parameters, actions, roots, .. } = *search;
+        let (rooms, imagined) = (&self.rules.rooms, &self.imagined);
+        let task = Task { agent, aim, actions, roots, rooms, imagined, parameters };
+        let nothing = |&action: &Action| ActionEvaluation { action, visits: 0, value: 0.0 };
+        let mut evaluations: Vec<ActionEvaluation> = actions.iter().map(nothing).collect();
+        let mut action = Action::Stop;
+        for _ in 0..parameters.searches.max(1) {
+            let found = search::search(&task, draws);
+            for evaluation in &mut evaluations {
+                let of = found.actions.iter().find(|it| it.0 == evaluation.action);
+                if let Some(&(_, visits, value)) = of {
+                    add(evaluation, visits, value);
+                }
+            }
+            action = found.chosen;
+        }
+        if parameters.searches > 1 {
+            // Of equally visited actions the better, of equally good ones the first.
+            let best = evaluations
+                .iter()
+                .rev()
+                .max_by(|a, b| a.visits.cmp(&b.visits).then_with(|| a.value.total_cmp(&b.value)));
+            action = best.map_or(action, |best| best.action);
+        }
+        Findings { action, evaluations, drawn: 0 }
+    }
 }
 
 /// Adds what a search found about an action to what others found.
-fn add(evaluation: &mut ActionEvaluation, found: &ActionStatistics) {
-    let visits = evaluation.visits + found.visits as u32;
-    if visits > 0 {
-        let sum = evaluation.value * f64::from(evaluation.visits) + found.value * found.visits as f64;
-        evaluation.value = sum / f64::from(visits);
+fn add(evaluation: &mut ActionEvaluation, visits: u32, value: f64) {
+    let sum = evaluation.value * f64::from(evaluation.visits) + value * f64::from(visits);
+    evaluation.visits += visits;
+    if evaluation.visits > 0 {
+        evaluation.value = sum / f64::from(evaluation.visits);
     }
-    evaluation.visits = visits;
+}
+
+/// The action that does in a reflected world what this one does.
+const fn mirrored(action: Action) -> Action {
+    match action {
+        Action::TurnLeft => Action::TurnRight,
+        Action::TurnRight => Action::TurnLeft,
+        Action::Left => Action::Right,
+        Action::Right => Action::Left,
+        Action::UpLeft => Action::UpRight,
+        Action::UpRight => Action::UpLeft,
+        Action::DownLeft => Action::DownRight,
+        Action::DownRight => Action::DownLeft,
+        action => action,
+    }
 }
 
 fn summary(proposal: &Proposal) -> SubgoalValue {
     let subgoal: Subgoal = proposal.aim.subgoal();
     SubgoalValue { subgoal, value: proposal.value, particles: proposal.particles.len() }
+}
+
+/// The dynamics that a mind with these parameters imagines.
+pub(crate) fn imagined(physics: &PhysicsConfig, parameters: &PublishedParameters) -> Imagined {
+    let mut imagined = Imagined::new(physics);
+    if !parameters.collisions {
+        imagined = imagined.without_collisions();
+    }
+    if parameters.strongest_coasts { imagined.with_coasting_strongest() } else { imagined }
 }

@@ -1,5 +1,6 @@
 //! The parameters of a published mind.
 
+use crate::stream::RandomNumbers;
 use serde::{Deserialize, Serialize};
 
 /// Every number of a published mind that can be chosen. The defaults are those of the published recordings;
@@ -31,7 +32,15 @@ pub struct PublishedParameters {
     pub collisions: bool,
     /// Whether agents on the way to a landmark push in all directions, as they do in recordings made before
     /// the 28th of August 2020 (inferred); if not, they turn, push forward or let themselves slide.
+    #[serde(default)]
     pub older_actions: bool,
+    /// Whether agents of the greatest strength coast when they mean to stop, in the mind's imagination. That
+    /// is how it was when the published events were recorded; the bodies' own settings are elsewhere.
+    #[serde(default)]
+    pub strongest_coasts: bool,
+    /// Where the random numbers of searches come from.
+    #[serde(default)]
+    pub random: RandomNumbers,
 }
 
 impl Default for PublishedParameters {
@@ -47,6 +56,8 @@ impl Default for PublishedParameters {
             discount: 0.95,
             collisions: true,
             older_actions: false,
+            strongest_coasts: false,
+            random: RandomNumbers::Seeded,
         }
     }
 }

@@ -11,35 +11,72 @@ use phase_model::{
 use phase_navigation::Map;
 
 /// Rooms and the paths between them. Paths cross doors in their middles, and what cannot be reached is as far
-/// as the arena is wide, 28.2843 u.
+/// as the arena is wide, 28.284 u.
 #[derive(Clone, Debug)]
-pub struct Rooms(Map);
+pub struct Rooms {
+    is_open: bool,
+    doors: [[Option<Segment>; ROOM_COUNT]; ROOM_COUNT],
+    ways: [[Option<Way>; ROOM_COUNT]; ROOM_COUNT],
+}
+
+const ROOM_COUNT: usize = RoomId::ALL.len();
+
+/// The way from one room to another.
+#[derive(Clone, Debug)]
+struct Way {
+    /// The rooms, the first and the last included.
+    rooms: Vec<RoomId>,
+    /// The middles of its first and its last door (u).
+    ends: Option<(Vec2, Vec2)>,
+    /// Length of the path between those (u).
+    length: f64,
+    /// The narrowest door (u).
+    narrowest: f32,
+}
 
 impl Rooms {
     /// The rooms of a layout.
     #[must_use]
     pub fn new(layout: Layout) -> Self {
-        Self(Map::new(layout))
+        let map = Map::new(layout);
+        let table = |from: RoomId| {
+            RoomId::ALL.map(|to| map.crossing(from, to).map(|crossing| crossing.opening))
+        };
+        let way = |from: RoomId, to: RoomId| {
+            let crossings = map.way(from, to, 0.0)?;
+            let middles: Vec<Vec2> = crossings.iter().map(|crossing| crossing.opening.middle()).collect();
+            let widths = crossings.iter().map(|crossing| crossing.opening.length());
+            Some(Way {
+                rooms: core::iter::once(from).chain(crossings.iter().map(|crossing| crossing.to)).collect(),
+                ends: middles.first().copied().zip(middles.last().copied()),
+                length: middles.windows(2).map(|pair| apart(pair[0], pair[1])).sum(),
+                narrowest: widths.fold(f32::INFINITY, f32::min),
+            })
+        };
+        Self {
+            is_open: map.walls().is_empty(),
+            doors: RoomId::ALL.map(table),
+            ways: RoomId::ALL.map(|from| RoomId::ALL.map(|to| way(from, to))),
+        }
     }
 
     /// Whether there are no walls, so that the arena is one room.
     #[must_use]
-    pub fn is_open(&self) -> bool {
-        self.0.walls().is_empty()
+    pub const fn is_open(&self) -> bool {
+        self.is_open
     }
 
     /// The door between two rooms next to each other (u).
     #[must_use]
     pub fn door(&self, a: RoomId, b: RoomId) -> Option<Segment> {
-        self.0.crossing(a, b).map(|crossing| crossing.opening)
+        self.doors[a][b]
     }
 
     /// The rooms on the way through the fewest of them, the first and the last included; `None` where there
     /// is no way.
     #[must_use]
-    pub fn way(&self, from: RoomId, to: RoomId) -> Option<Vec<RoomId>> {
-        let crossings = self.0.way(from, to, 0.0)?;
-        Some(core::iter::once(from).chain(crossings.iter().map(|crossing| crossing.to)).collect())
+    pub fn way(&self, from: RoomId, to: RoomId) -> Option<&[RoomId]> {
+        self.ways[from][to].as_ref().map(|way| way.rooms.as_slice())
     }
 
     /// The room after the first on the way; the first itself at its end or where there is no way.
@@ -56,41 +93,36 @@ impl Rooms {
     /// Whether a door on the way is narrower than twice this size (u), or there is no way.
     #[must_use]
     pub fn blocked(&self, from: RoomId, to: RoomId, size: f32) -> bool {
-        if self.is_open() {
-            return false;
-        }
-        self.way(from, to).is_none_or(|way| self.doors(&way).any(|door| door.length() < 2.0 * size))
+        !self.is_open && self.ways[from][to].as_ref().is_none_or(|way| way.narrowest < 2.0 * size)
     }
 
     /// Length of the path between two points (u): straight within a room, otherwise through the doors'
     /// points.
     #[must_use]
-    pub fn distance(&self, from: Vec2, to: Vec2) -> f32 {
+    pub fn distance(&self, from: Vec2, to: Vec2) -> f64 {
         let start = room_of(from);
         let end = room_of(to);
-        if self.is_open() || start == end {
-            return from.distance(to);
+        if self.is_open || start == end {
+            return apart(from, to);
         }
-        let Some(way) = self.way(start, end) else { return DIAGONAL };
-        let mut sum = 0.0;
-        let mut here = from;
-        for door in self.doors(&way) {
-            sum += here.distance(door.middle());
-            here = door.middle();
+        match &self.ways[start][end] {
+            Some(Way { ends: Some((first, last)), length, .. }) => {
+                apart(from, *first) + length + apart(*last, to)
+            }
+            _ => DIAGONAL,
         }
-        sum + here.distance(to)
     }
 
     /// Distance of a point from a room (u): to its corner point, straight or through the one door between;
     /// the arena's diagonal where there is none.
     #[must_use]
-    pub fn room_distance(&self, from: Vec2, room: RoomId) -> f32 {
+    pub fn room_distance(&self, from: Vec2, room: RoomId) -> f64 {
         let here = room_of(from);
         if here == room {
-            return from.distance(corner(room));
+            return apart(from, corner(room));
         }
         match self.door(here, room) {
-            Some(door) => from.distance(door.middle()) + door.middle().distance(corner(room)),
+            Some(door) => apart(from, door.middle()) + apart(door.middle(), corner(room)),
             None => DIAGONAL,
         }
     }
@@ -102,8 +134,12 @@ impl Rooms {
     }
 }
 
+/// Distance of two points (u), in the precision of the original.
+fn apart(a: Vec2, b: Vec2) -> f64 {
+    a.as_dvec2().distance(b.as_dvec2())
+}
+
 /// The point of a room near the arena's corner that room distances lead to (u).
-#[must_use]
 fn corner(room: RoomId) -> Vec2 {
     let towards = (arena::LANDMARKS[room.landmark()] - arena::CENTRE).signum();
     arena::CENTRE + towards * ROOM_CORNER

@@ -34,7 +34,7 @@ pub(crate) fn proposals(aims: &[Aim], costs: &[f64]) -> Vec<Proposal> {
 
 /// Distance (u) left to go to the final goal, whatever the subgoal: of an agent, its way to the landmark; of
 /// an object, its way if the agent holds it, else the agent's way to it. Nothing for all other goals.
-pub(crate) fn distance_left(rooms: &Rooms, agent: AgentId, goal: Goal, state: &State) -> f32 {
+pub(crate) fn distance_left(rooms: &Rooms, agent: AgentId, goal: Goal, state: &State) -> f64 {
     let at = |entity| state.position(entity);
     match goal {
         Goal::AgentOnLandmark { agent, landmark, .. } => {

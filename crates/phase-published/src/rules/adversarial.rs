@@ -38,13 +38,13 @@ impl View<'_> {
             return Aim::Stop;
         }
         let way = self.rooms().way(there, goal).unwrap_or_default();
-        if let Some(room) = self.room_to_plug(&way) {
+        if let Some(room) = self.room_to_plug(way) {
             return self.put(ObjectId::ZERO, room.landmark());
         }
         if let Some(object) = self.state.held_object(self.me) {
             return Aim::Grab(self.me, object, Sign::Negative);
         }
-        self.stand_on(&way).unwrap_or(negated)
+        self.stand_on(way).unwrap_or(negated)
     }
 
     /// The room beside a door on the other's way that is too narrow for the first object, where the object

@@ -100,7 +100,7 @@ impl View<'_> {
         };
         let place = self.state.position(Entity::Object(object));
         let reach = self.rules.physics.object_radii[object] + self.rules.physics.agents[self.other].radius;
-        if self.rooms().doors(&way).any(|door| door.middle().distance(place) < reach) {
+        if self.rooms().doors(way).any(|door| door.middle().distance(place) < reach) {
             self.put(object, self.room(Entity::Object(object)).landmark())
         } else {
             self.release_or_stop()

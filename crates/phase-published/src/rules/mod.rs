@@ -73,12 +73,12 @@ impl View<'_> {
     }
 
     /// Length of the path from an entity to a landmark (u).
-    fn landmark_distance(&self, entity: Entity, landmark: LandmarkId) -> f32 {
+    fn landmark_distance(&self, entity: Entity, landmark: LandmarkId) -> f64 {
         self.rooms().distance(self.state.position(entity), arena::LANDMARKS[landmark])
     }
 
     /// Length of the path between two entities (u).
-    fn between(&self, a: Entity, b: Entity) -> f32 {
+    fn between(&self, a: Entity, b: Entity) -> f64 {
         self.rooms().distance(self.state.position(a), self.state.position(b))
     }
 

@@ -1,8 +1,8 @@
 //! Imagined steps.
 
-use crate::cases::{Tally, action, cases, list, name, physics, state, text, whole};
-use phase_forward::Forward;
-use phase_model::{Action, Dynamics};
+use crate::cases::{Tally, action, cases, list, name, physics, real, state, text, whole};
+use phase_forward::Imagined;
+use phase_model::{Action, Vec2};
 use std::collections::BTreeMap;
 
 /// Greatest difference of a position (u).
@@ -18,7 +18,7 @@ fn imagined_steps_are_the_originals() {
     let mut errors = Vec::new();
     for case in &cases {
         let physics = physics(&case["scene"]);
-        let forward = Forward::imagined(&physics);
+        let forward = Imagined::new(&physics);
         let before = state(&case["state"]["bodies"], &case["state"]["grips"]);
         for it in list(&case["steps"]) {
             let own = whole(&it[0]);
@@ -28,7 +28,11 @@ fn imagined_steps_are_the_originals() {
                 actions[1 - own] = action(&it[2]);
             }
             let mut after = before;
-            forward.step(&mut after, actions);
+            let at = [0, 1].map(|k: usize| {
+                let place = &case["root_items"][k];
+                Vec2::new(real(&place[0]) as f32, real(&place[1]) as f32)
+            });
+            forward.step_reaching(&mut after, actions, at);
             let theirs = state(&it[3]["bodies"], &it[3]["grips"]);
             let error = |k: usize| (after.bodies[k].position - theirs.bodies[k].position).length();
             let worst = (0..4).map(error).fold(0.0, f32::max);

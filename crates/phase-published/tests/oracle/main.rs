@@ -9,3 +9,4 @@ mod rules;
 mod selection;
 mod imagined;
 mod belief;
+mod decisions;

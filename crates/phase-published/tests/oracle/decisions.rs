@@ -1,0 +1,78 @@
+//! Whole searches with the original's random numbers.
+
+use crate::cases::{Tally, action, agent, aim, cases, goal, list, name, real, scene, state, text, whole};
+use phase_model::{Action, AgentId, Attitude, State, random::{Purpose, stream}};
+use phase_published::{Mind, PublishedParameters, RandomNumbers};
+use serde_json::Value;
+
+/// Share of the searches that choose as the original.
+const SAME_ACTION: f64 = 0.98;
+
+fn particles(of: &Value) -> Option<Vec<State>> {
+    let particles = of["particles"].as_array()?;
+    let repeated = |it: &Value| vec![state(&it["state"], &it["grips"]); whole(&it["n"])];
+    Some(particles.iter().flat_map(repeated).collect())
+}
+
+#[test]
+fn searches_are_the_originals() {
+    let Some(cases) = cases("oracle-decisions.json") else { return };
+    let [mut subgoals, mut chosen, mut visits, mut values] = [(); 4].map(|()| Tally::default());
+    let mut skipped = 0;
+    for case in &cases {
+        let attitude = |k: usize| match real(&case["alpha"][k]) {
+            _ if k == 1 => Attitude::Neutral,
+            alpha if alpha > 0.0 => Attitude::Help,
+            alpha if alpha < 0.0 => Attitude::Hinder,
+            _ => Attitude::Neutral,
+        };
+        let goals = [goal(&case["goals"][0]), goal(&case["goals"][1])];
+        let scene = scene(&case["scene"], goals, [attitude(0), attitude(1)]);
+        let parameters = PublishedParameters {
+            older_actions: whole(&case["lma_actions"]) == 12,
+            strongest_coasts: case["stop_works_for_strongest"] == false,
+            random: RandomNumbers::Original,
+            ..PublishedParameters::default()
+        };
+        let mut first: Option<Mind> = None;
+        for of in list(&case["agents"]) {
+            let who: AgentId = agent(whole(&of["agent"]));
+            let mut mind = Mind::new(&scene, who, parameters).expect("a mind");
+            let Some(particles) = particles(of) else {
+                skipped += list(&of["searches"]).len();
+                continue;
+            };
+            if let Some(first) = &first {
+                mind.follow(first);
+            }
+            let searches = list(&of["searches"]);
+            let (ours, thought) = mind.decide(&particles, &mut stream(1, Purpose::Search, 0)).expect("a decision");
+            let wanted = aim(&of["subgoal"]).subgoal();
+            subgoals.add(thought.subgoal == wanted, || {
+                format!("{}, {who}: {}, theirs {}", name(case), thought.subgoal, of["subgoal"])
+            });
+            for theirs in searches.iter().filter(|search| text(&search["seed"].clone().to_string().into()) == "\"original\"") {
+                let actions: Vec<Action> = list(&theirs["order"]).iter().map(action).collect();
+                let of_ours = |action: &Action| thought.actions.iter().find(|it| it.action == *action).copied();
+                let found: Vec<u32> = actions.iter().map(|it| of_ours(it).map_or(0, |it| it.visits)).collect();
+                let known: Vec<u32> = list(&theirs["visits"]).iter().map(|it| whole(it) as u32).collect();
+                let what = || {
+                    format!(
+                        "{}, {who} {} ({} particles): {ours:?} {found:?}, theirs {} {known:?} {:?}",
+                        name(case), of["subgoal"], of["n_selected"], theirs["action"], actions
+                    )
+                };
+                visits.add(found == known, what);
+                chosen.add(ours == action(&theirs["action"]), what);
+                let near = actions.iter().zip(list(&theirs["values"])).all(|(it, value)| {
+                    of_ours(it).is_some_and(|it| (it.value - real(value)).abs() < 1e-3)
+                });
+                values.add(near, String::new);
+            }
+            first = Some(mind);
+        }
+    }
+    println!("subgoals: {subgoals}; actions: {chosen}; visits: {visits}; values within 0.001: {values}; {skipped} searches without particles");
+    assert_eq!(subgoals.different, 0);
+    assert!(chosen.equal as f64 >= SAME_ACTION * chosen.total() as f64);
+}
