@@ -22,11 +22,18 @@ pub struct MindOptions {
     /// All turns go one way, as in the published recordings: left, and right in a reflected layout
     #[arg(long)]
     pub one_way_turns: bool,
+    /// Agents of the greatest strength coast when they mean to stop, as in the published recordings
+    #[arg(long)]
+    pub strongest_coasts: bool,
+    /// Published minds draw the random numbers of the original, which repeat in every search
+    #[arg(long)]
+    pub original_random: bool,
 }
 
 impl From<MindOptions> for MindChoice {
-    fn from(MindOptions { minds, one_way_turns }: MindOptions) -> Self {
-        Self { kind: minds, one_way_turns }
+    fn from(options: MindOptions) -> Self {
+        let MindOptions { minds, one_way_turns, strongest_coasts, original_random } = options;
+        Self { kind: minds, one_way_turns, strongest_coasts, original_random }
     }
 }
 

@@ -211,7 +211,12 @@ impl Forward {
         }
     }
 
-    pub(crate) fn substep_warm(&self, world: &mut World<'_>, solver_cache: &mut SolverCache, touching: &mut ContactSet) {
+    pub(crate) fn substep_warm(
+        &self,
+        world: &mut World<'_>,
+        solver_cache: &mut SolverCache,
+        touching: &mut ContactSet,
+    ) {
         solver_cache.drop_stale(world);
         world.all_moved();
         world.outline(self.model.everyone());

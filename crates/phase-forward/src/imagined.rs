@@ -1,13 +1,6 @@
 //! The dynamics as the published planner imagines them.
 
-use crate::{
-    Forward,
-    finish::stop_turning,
-    model::Model,
-    reach,
-    solver_cache::SolverCache,
-    world::World,
-};
+use crate::{Forward, finish::stop_turning, model::Model, reach, solver_cache::SolverCache, world::World};
 use phase_model::{
     AGENT_COUNT, Action, Dynamics, Entity, MAX_OBJECTS, PhysicsConfig, State, Strength, Vec2, arena::SUBSTEPS,
 };

@@ -33,7 +33,7 @@ fn holding(held: bool) -> State {
     state
 }
 
-fn step(forward: &Forward, mut state: State, action: Action) -> State {
+fn step(forward: &dyn Dynamics, mut state: State, action: Action) -> State {
     forward.step(&mut state, [action, Action::NoForce]);
     state
 }
@@ -43,8 +43,9 @@ fn step(forward: &Forward, mut state: State, action: Action) -> State {
 fn pushed_straight_both_models_carry_alike() {
     let mass = 4.0 * RADIUS * RADIUS + core::f32::consts::PI * RADIUS * RADIUS;
     let expected = (450.0 - 200.0) * 15.0 / (3600.0 * mass);
-    for forward in [Forward::new(&physics()), Imagined::new(&physics())] {
-        let after = step(&forward, holding(true), Action::Up);
+    let models: [&dyn Dynamics; 2] = [&Forward::new(&physics()), &Imagined::new(&physics())];
+    for forward in models {
+        let after = step(forward, holding(true), Action::Up);
         for (entity, start) in [(ME, 8.0), (BALL, 8.0 + 2.0 * RADIUS)] {
             let moved = after.position(entity).y - start;
             assert!((moved - expected).abs() < 0.01, "{entity}: {moved} instead of {expected}");
@@ -84,8 +85,8 @@ fn the_distance_stays() {
 /// A push to the side acts at the origin, R/6 ahead of the centre of mass, instead of R/12 behind that.
 #[test]
 fn lateral_pushes_turn_twice_as_much() {
-    let turn = |forward: Forward| step(&forward, holding(false), Action::Left).body(ME).angle;
-    let (real, imagined) = (turn(Forward::new(&physics())), turn(Imagined::new(&physics())));
+    let turn = |forward: &dyn Dynamics| step(forward, holding(false), Action::Left).body(ME).angle;
+    let (real, imagined) = (turn(&Forward::new(&physics())), turn(&Imagined::new(&physics())));
     assert!(real * imagined > 0.0 && imagined.abs() > real.abs(), "{real}, {imagined}");
 }
 
@@ -93,8 +94,38 @@ fn lateral_pushes_turn_twice_as_much() {
 #[test]
 fn a_fresh_grip_is_a_weld() {
     let apart = holding(false);
-    let [real, imagined] = [Forward::new(&physics()), Imagined::new(&physics())]
-        .map(|forward| step(&forward, apart, Action::Attach));
+    let real = step(&Forward::new(&physics()), apart, Action::Attach);
+    let imagined = step(&Imagined::new(&physics()), apart, Action::Attach);
     assert_eq!(real.grips[0].map(|grip| grip.side), Some(Side::Head));
     assert!((imagined.position(BALL) - real.position(BALL)).length() < 1e-5);
+}
+
+/// What is within reach is judged by where objects are said to be, and pulled from where it is.
+#[test]
+fn reach_is_measured_to_stated_places() {
+    let imagined = Imagined::new(&physics());
+    let mut state = holding(false);
+    let near = state.position(BALL);
+    state.body_mut(BALL).position.y += 3.0;
+    let attach = [Action::Attach, Action::NoForce];
+    let mut out_of_reach = state;
+    imagined.step(&mut out_of_reach, attach);
+    assert_eq!(out_of_reach.grips[0], None);
+    let far = state.position(BALL);
+    imagined.step_reaching(&mut state, attach, [near, Vec2::ZERO]);
+    assert!(state.grips[0].is_some() && state.position(BALL).distance(far) > 1.0);
+}
+
+/// `stop` has no effect on the strongest where the recorder had none.
+#[test]
+fn the_strongest_coast() {
+    let mut strong = physics();
+    strong.agents[0].max_force = 600.0;
+    for (physics, coasts) in [(physics(), false), (strong, true)] {
+        let mut state = holding(false);
+        state.body_mut(BALL).position.x += 8.0;
+        state.body_mut(ME).velocity.y = 20.0;
+        let after = step(&Imagined::new(&physics).with_coasting_strongest(), state, Action::Stop);
+        assert_eq!(after.body(ME).velocity.y > 0.0, coasts);
+    }
 }

@@ -21,7 +21,8 @@ pub struct Agent {
 }
 
 impl Agent {
-    /// The agent of a scene that made an observation, its first, with the belief that follows from it.
+    /// The agent of a scene that made an observation, its first, of a state, with the belief that follows from
+    /// it.
     ///
     /// # Errors
     /// [`PomcpError`] for parameters that [`MindParameters::validate`] refuses and a search cannot have.
@@ -29,10 +30,11 @@ impl Agent {
         scene: &Scene,
         parameters: &MindParameters,
         observation: &Observation,
+        state: Option<&State>,
         random: &mut Pcg64Mcg,
     ) -> Result<Self, PomcpError> {
         let mind = mind(scene, observation.agent, parameters)?;
-        let belief = belief(scene.layout, &scene.physics(), parameters, observation, random);
+        let belief = belief(scene.layout, &scene.physics(), parameters, observation, state, random);
         Ok(Self { mind, belief, observed: observation.observed, last_action: None })
     }
 
@@ -48,11 +50,18 @@ impl Agent {
         self.belief.observe(state)
     }
 
-    /// Updates the belief with the observation of the state that the agent's action has led to.
-    pub fn perceive(&mut self, action: Action, observation: &Observation, random: &mut Pcg64Mcg) {
+    /// Updates the belief with the observation of the state that the agent's action has led to, the last of
+    /// the states after the step's substeps ([`BeliefState::update`]).
+    pub fn perceive(
+        &mut self,
+        action: Action,
+        observation: &Observation,
+        substeps: &[State],
+        random: &mut Pcg64Mcg,
+    ) {
         self.observed = observation.observed;
         self.last_action = Some(action);
-        self.belief.update(action, observation, random);
+        self.belief.update(action, observation, substeps, random);
     }
 
     /// Chooses the next action; returns it with its explanation.
@@ -66,5 +75,16 @@ impl Agent {
             last_action: self.last_action,
         };
         self.mind.decide(view, random)
+    }
+
+    /// [`Mind::stream_position`].
+    #[must_use]
+    pub fn stream_position(&self) -> u64 {
+        self.mind.stream_position()
+    }
+
+    /// [`Mind::begin_at`].
+    pub fn begin_at(&mut self, position: u64) {
+        self.mind.begin_at(position);
     }
 }

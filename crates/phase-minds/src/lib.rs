@@ -27,7 +27,8 @@
 //!     let parameters = MindParameters::of(kind).with_particles(5).with_simulations(100);
 //!     let observation = observe(kind, &scene.physics(), &scene.initial_state(), AgentId::ZERO);
 //!     let mut random = stream(1, Purpose::Search, 0);
-//!     let mut agent = Agent::new(&scene, &parameters, &observation, &mut random)?;
+//!     let start = scene.initial_state();
+//!     let mut agent = Agent::new(&scene, &parameters, &observation, Some(&start), &mut random)?;
 //!     let (action, thought) = agent.decide(&mut random)?;
 //!     assert_eq!(action, Action::Up, "{}", kind.name());
 //!     assert_eq!(thought.subgoal.to_string(), "On(agent 0, landmark 1)");
@@ -48,9 +49,9 @@ mod turns;
 pub use agent::Agent;
 pub use parameters::{MindKind, MindParameters, ParametersError};
 pub use phase_agent::{BeliefView, Foresight, PhaseParameters};
-pub use phase_published::{PublishedParameters, SearchMemo};
+pub use phase_published::{PublishedParameters, RandomNumbers, SearchMemo};
 pub use ranges::RangeError;
-pub use turns::carried_out;
+pub use turns::Recorder;
 
 use phase_event::Thought;
 use phase_model::{Action, AgentId, Layout, PhysicsConfig, Scene, State, random::Pcg64Mcg};
@@ -68,16 +69,35 @@ pub trait Mind: core::fmt::Debug + Send {
         belief: BeliefView<'_>,
         random: &mut Pcg64Mcg,
     ) -> Result<(Action, Thought), PomcpError>;
+
+    /// Where the last decision has left the original's stream of random numbers; 0 for minds with others.
+    fn stream_position(&self) -> u64 {
+        0
+    }
+
+    /// Lets the next decision begin at a position of the original's stream: that at which the first agent's
+    /// decision has left it, if this is the second agent. Minds with other random numbers ignore it.
+    fn begin_at(&mut self, _position: u64) {}
 }
 
 /// The half of an agent that perceives and believes. It depends on observations, own actions and its random
-/// stream alone.
+/// stream alone, but for what [`update`](Self::update) says of published minds.
 pub trait BeliefState: core::fmt::Debug + Send + Sync {
     /// The observation that the agent makes of a state of the world.
     fn observe(&self, state: &State) -> Observation;
 
     /// Updates the belief with the observation after an action.
-    fn update(&mut self, action: Action, observation: &Observation, random: &mut Pcg64Mcg);
+    ///
+    /// `substeps` are the true states after the substeps, the last of which is observed, or none where nobody
+    /// knows them. Only published minds look at them: what comes into view within the step counts as seen, and an unseen body
+    /// that is believed near its true place is left there, as in the original.
+    fn update(
+        &mut self,
+        action: Action,
+        observation: &Observation,
+        substeps: &[State],
+        random: &mut Pcg64Mcg,
+    );
 
     /// Possible states of the world, all equally likely.
     fn particles(&self) -> &[State];
@@ -130,13 +150,14 @@ pub fn observe(kind: MindKind, physics: &PhysicsConfig, state: &State, agent: Ag
 }
 
 /// The belief of an agent after its first observation, which has to be made by the senses of its kind
-/// ([`observe()`]).
+/// ([`observe()`]) of a state, which may be told too ([`BeliefState::update`]).
 #[must_use]
 pub fn belief(
     layout: Layout,
     physics: &PhysicsConfig,
     parameters: &MindParameters,
     observation: &Observation,
+    state: Option<&State>,
     random: &mut Pcg64Mcg,
 ) -> Box<dyn BeliefState> {
     match parameters {
@@ -144,7 +165,7 @@ pub fn belief(
             phase::belief(physics, parameters.particles, observation, random)
         }
         MindParameters::Published(parameters) => {
-            published::belief(layout, physics, parameters.particles, observation, random)
+            published::belief(layout, physics, parameters, observation, state, random)
         }
     }
 }

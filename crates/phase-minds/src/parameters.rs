@@ -2,7 +2,7 @@
 
 use crate::{RangeError, ranges};
 use phase_agent::{Foresight, PhaseParameters};
-use phase_published::PublishedParameters;
+use phase_published::{PublishedParameters, RandomNumbers};
 use serde::{Deserialize, Serialize, de::DeserializeOwned};
 use serde_json::{Map, Value};
 use thiserror::Error;
@@ -203,6 +203,27 @@ impl MindParameters {
         match &mut self {
             Self::Phase(parameters) => parameters.foresight = Foresight::Points,
             Self::Published(parameters) => parameters.collisions = false,
+        }
+        self
+    }
+
+    /// Whether the mind draws the random numbers of the original, which both agents' minds share.
+    #[must_use]
+    pub const fn has_original_random(&self) -> bool {
+        matches!(self, Self::Published(PublishedParameters { random: RandomNumbers::Original, .. }))
+    }
+
+    /// These parameters for published minds with the original's random numbers, if they are wanted, and either
+    /// as in the recordings or as in worlds of ours: in the former they know that agents of the greatest
+    /// strength coast when they mean to stop, and have the older actions. Other minds stay as they are.
+    #[must_use]
+    pub const fn as_recorded(mut self, original_random: bool, recorded: bool) -> Self {
+        if let Self::Published(parameters) = &mut self {
+            if original_random {
+                parameters.random = RandomNumbers::Original;
+            }
+            parameters.strongest_coasts = recorded;
+            parameters.older_actions = recorded;
         }
         self
     }

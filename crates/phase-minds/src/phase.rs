@@ -55,7 +55,13 @@ impl BeliefState for PhaseBelief {
         observe(&self.physics, state, self.belief.agent())
     }
 
-    fn update(&mut self, action: Action, observation: &Observation, random: &mut Pcg64Mcg) {
+    fn update(
+        &mut self,
+        action: Action,
+        observation: &Observation,
+        _substeps: &[State],
+        random: &mut Pcg64Mcg,
+    ) {
         self.belief.update(&self.forward, &self.physics, action, observation, random);
     }
 

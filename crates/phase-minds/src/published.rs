@@ -24,11 +24,12 @@ pub(crate) fn mind(
 pub(crate) fn belief(
     layout: Layout,
     physics: &PhysicsConfig,
-    particles: usize,
+    parameters: &PublishedParameters,
     observation: &Observation,
+    state: Option<&State>,
     random: &mut Pcg64Mcg,
 ) -> Box<dyn BeliefState> {
-    Box::new(Belief::new(layout, physics, observation, particles, random))
+    Box::new(Belief::new(layout, physics, parameters, observation, state, random))
 }
 
 impl Mind for phase_published::Mind {
@@ -39,6 +40,14 @@ impl Mind for phase_published::Mind {
     ) -> Result<(Action, Thought), PomcpError> {
         Self::decide(self, belief.particles, random)
     }
+
+    fn stream_position(&self) -> u64 {
+        Self::stream_position(self)
+    }
+
+    fn begin_at(&mut self, position: u64) {
+        Self::begin_at(self, position);
+    }
 }
 
 impl BeliefState for Belief {
@@ -46,8 +55,14 @@ impl BeliefState for Belief {
         Self::observe(self, state)
     }
 
-    fn update(&mut self, action: Action, observation: &Observation, random: &mut Pcg64Mcg) {
-        Self::update(self, action, observation, random);
+    fn update(
+        &mut self,
+        action: Action,
+        observation: &Observation,
+        substeps: &[State],
+        random: &mut Pcg64Mcg,
+    ) {
+        Self::update(self, action, observation, substeps, random);
     }
 
     fn particles(&self) -> &[State] {

@@ -4,11 +4,11 @@
 
 use phase_event::ActionEvaluation;
 use phase_minds::{
-    Agent, BeliefView, MindKind, MindParameters, PhaseParameters, PublishedParameters, carried_out, mind,
+    Agent, BeliefView, MindKind, MindParameters, PhaseParameters, PublishedParameters, Recorder, mind,
     observe,
 };
 use phase_model::{
-    Action, AgentId, BodySet, Dynamics, Entity, Flip, Layout, Scene,
+    Action, AgentBody, AgentId, BodySet, Dynamics, Entity, Flip, Layout, Scene, Strength,
     random::{Pcg64Mcg, Purpose, stream},
 };
 
@@ -40,7 +40,7 @@ fn every_kind_walks_to_its_landmark() {
         let mut state = scene.initial_state();
         let mut random = random(1);
         let first = observe(kind, &scene.physics(), &state, AgentId::ZERO);
-        let mut agent = Agent::new(&scene, &parameters(kind), &first, &mut random).unwrap();
+        let mut agent = Agent::new(&scene, &parameters(kind), &first, None, &mut random).unwrap();
         let goal = scene.goals()[0];
         let before = goal.distance(&state);
         for _ in 0..14 {
@@ -53,7 +53,7 @@ fn every_kind_walks_to_its_landmark() {
             assert_eq!(thought.subgoals.iter().map(|proposed| proposed.particles).sum::<usize>(), 10);
             forward.step(&mut state, [action, Action::Stop]);
             let observation = agent.observe(&state);
-            agent.perceive(action, &observation, &mut random);
+            agent.perceive(action, &observation, &[], &mut random);
         }
         let after = goal.distance(&state);
         assert!(after < 0.5 * before, "{}: {before} u, then {after} u", kind.name());
@@ -63,13 +63,28 @@ fn every_kind_walks_to_its_landmark() {
 #[test]
 fn one_way_turns_go_left_and_in_reflections_right() {
     let layout = Layout::new(4, None).unwrap();
+    let weak = AgentBody { radius: 0.8, max_force: Strength::Strong.max_force() };
+    let recorder = Recorder { one_way_turns: true, ..Recorder::default() };
     for action in Action::ALL {
-        assert_eq!(carried_out(action, false, layout), action);
+        assert_eq!(Recorder::default().carried_out(action, &weak, layout), action);
         for layout in [layout, layout.flipped(Flip::UpDown)] {
-            let done = carried_out(action, true, layout);
+            let done = recorder.carried_out(action, &weak, layout);
             let turn = if layout.flip().is_some() { Action::TurnRight } else { Action::TurnLeft };
             assert_eq!(done, if action.turn() == 0.0 { action } else { turn });
         }
+    }
+}
+
+/// `stop` has no effect on the strongest, in the recorder alone.
+#[test]
+fn the_strongest_coast() {
+    let layout = Layout::new(4, None).unwrap();
+    for strength in Strength::ALL {
+        let body = AgentBody { radius: 0.8, max_force: strength.max_force() };
+        let coasts = strength == Strength::Mighty;
+        let done = Recorder::PUBLISHED.carried_out(Action::Stop, &body, layout);
+        assert_eq!(done, if coasts { Action::NoForce } else { Action::Stop });
+        assert_eq!(Recorder::default().carried_out(Action::Stop, &body, layout), Action::Stop);
     }
 }
 

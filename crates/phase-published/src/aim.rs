@@ -5,8 +5,8 @@ use crate::{
     rooms::Rooms,
 };
 use phase_model::{
-    Action, AgentId, Entity, Goal, LandmarkId, Literal, ObjectId, Predicate, PredicateTarget,
-    RoomId, Sign, State, Subgoal, Vec2, arena, layout::room_of,
+    Action, AgentId, Entity, Goal, LandmarkId, Literal, ObjectId, Predicate, PredicateTarget, RoomId, Sign,
+    State, Subgoal, Vec2, arena, layout::room_of,
 };
 
 /// A subgoal of the published planner.
@@ -85,8 +85,7 @@ impl Aim {
     #[must_use]
     pub fn reward(self, rooms: &Rooms, state: &State, action: Action) -> f64 {
         let sign = f64::from(self.sign().value());
-        -sign * self.distance(rooms, state) / DIAGONAL
-            + phase_model::reward::action_cost(action)
+        -sign * self.distance(rooms, state) / DIAGONAL + phase_model::reward::action_cost(action)
     }
 
     /// Whether it is to be achieved or undone.

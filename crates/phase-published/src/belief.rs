@@ -1,6 +1,12 @@
 //! The particle belief of the published simulator's agents.
 
-use crate::{recorded::INITIAL_REACH, redraw::Redraw, senses::observe};
+use crate::{
+    PublishedParameters,
+    mind::imagined,
+    recorded::INITIAL_REACH,
+    redraw::Redraw,
+    senses::{observe, visible},
+};
 use phase_belief::overwrite;
 use phase_forward::Imagined;
 use phase_model::{
@@ -30,14 +36,14 @@ impl Belief {
     pub fn new(
         layout: Layout,
         physics: &PhysicsConfig,
+        parameters: &PublishedParameters,
         observation: &Observation,
-        particle_count: usize,
-        truth: &State,
+        truth: Option<&State>,
         random: &mut impl Rng,
     ) -> Self {
         let flip = layout.flip();
         let angle = flip.map_or(0.0, |flip| flip.angle(0.0));
-        let particles = (0..particle_count)
+        let particles = (0..parameters.particles)
             .map(|_| {
                 let mut particle = State::new([Body::default(); MAX_ENTITIES]);
                 for entity in physics.entities().filter(|&entity| entity != Entity::Agent(observation.agent))
@@ -54,20 +60,34 @@ impl Belief {
             .collect();
         let mut belief = Self {
             agent: observation.agent,
-            imagined: Imagined::new(physics),
+            imagined: imagined(physics, parameters),
             physics: physics.clone(),
             flip,
             particles,
             seen: CellSet::EMPTY,
         };
-        belief.update(Action::NoForce, observation, truth, random);
+        belief.update(Action::NoForce, observation, truth.map_or(&[], core::slice::from_ref), random);
         belief
     }
 
     /// One step: every particle is moved on by the imagined dynamics, in which the other agent coasts, then
     /// overwritten with the observation, and unseen bodies that contradict it are redrawn.
-    pub fn update(&mut self, action: Action, observation: &Observation, truth: &State, random: &mut impl Rng) {
+    ///
+    /// `substeps` are the true states after the substeps, the last of which is observed, or none where nobody
+    /// knows them: what comes into view in any of them counts as seen, and an unseen body near its true place
+    /// is left there.
+    pub fn update(
+        &mut self,
+        action: Action,
+        observation: &Observation,
+        substeps: &[State],
+        random: &mut impl Rng,
+    ) {
+        let truth = substeps.last();
         self.seen = self.seen.union(&observation.visible);
+        for state in substeps.iter().rev().skip(1) {
+            self.seen = self.seen.union(&visible(&self.physics, state, self.agent));
+        }
         let mut actions = [Action::NoForce; AGENT_COUNT];
         actions[self.agent] = action;
         let redraw = Redraw { physics: &self.physics, flip: self.flip, seen: &self.seen, observation, truth };

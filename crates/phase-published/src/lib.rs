@@ -9,26 +9,18 @@
 //! its agents do; a recording is explained best by the mind that made it. The trade-off is a mind that nobody
 //! would build on purpose.
 //!
-//! In questions that the description leaves open, the published recordings decide:
-//!
-//! - An agent that is hindered on the way to a landmark chooses from twelve actions instead of five while
-//!   both are in the landmark's room: of its pushes there most go sideways, and none elsewhere.
-//! - A hinderer that waits for the other on its way does not count the room it is in, so that it goes to and
-//!   fro.
-//! - An object to be carried is grabbed only if it is the one that `attach` would take.
+//! Senses, rules, rewards, selection, belief updates and imagined steps are compared with outputs of the
+//! original (tests/oracle). Its random numbers can be had ([`RandomNumbers::Original`]), and its decisions
+//! repeat with them.
 //!
 //! Differences from the original that are meant:
 //!
-//! - A reflected scene is thought about as it is. The original always ran in the layout before reflection,
-//!   which can be told apart only by where unseen bodies are put ([`Belief`] follows it).
-//! - Where the original crashes or divides by zero, something sensible is done: once every cell has been
-//!   seen, unseen bodies are put wherever the agent does not look.
-//! - An unseen body that the agent believes in view is redrawn even if the truth lies within 1 u, which the
-//!   original tells by looking at the truth. A grip ends when either side of it is redrawn.
-//! - Cells count as seen if they are in view at the end of a step, not after each substep.
+//! - A reflected scene is thought about as it is, with actions and rooms named as before reflection.
+//! - Where the original crashes or divides by zero, something sensible is done: a helper that should release
+//!   what it holds does so, and once every cell has been seen, unseen bodies are put wherever the agent does
+//!   not look.
+//! - A grip ends when either side of it is redrawn; in the original only when the agent is.
 //! - Either agent may help or hinder; in the original only the first can.
-//!
-//! Unknown: about one agent in four that has reached its goal coasts to rest instead of stopping.
 //!
 //! An agent that faces the landmark it wants to reach pushes forward:
 //!
@@ -47,8 +39,9 @@
 //! let state = scene.initial_state();
 //! let own = AgentId::ZERO;
 //! let mut random = stream(1, Purpose::Search, 0);
-//! let belief = Belief::new(scene.layout, &physics, &observe(&physics, &state, own), 5, &mut random);
-//! let parameters = PublishedParameters { simulations: 100, ..PublishedParameters::default() };
+//! let parameters = PublishedParameters { particles: 5, simulations: 100, ..PublishedParameters::default() };
+//! let seen = observe(&physics, &state, own);
+//! let belief = Belief::new(scene.layout, &physics, &parameters, &seen, Some(&state), &mut random);
 //! let mut mind = Mind::new(&scene, own, parameters)?;
 //! assert_eq!(mind.aim(&state), Aim::AgentToLandmark(own, LandmarkId::TOP_RIGHT, Sign::Positive));
 //! assert_eq!(mind.decide(belief.particles(), &mut random)?.0, Action::Up);

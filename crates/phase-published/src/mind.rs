@@ -13,7 +13,7 @@ use crate::{
 use phase_event::{ActionEvaluation, SubgoalValue, Thought};
 use phase_forward::Imagined;
 use phase_model::{
-    Action, AgentId, PhysicsConfig, Scene, State, Subgoal,
+    Action, AgentId, Attitude, PhysicsConfig, Scene, State, Subgoal,
     random::{Purpose, stream},
 };
 use phase_pomcp::{PomcpError, PomcpSettings};
@@ -39,7 +39,8 @@ impl Mind {
     pub fn new(scene: &Scene, agent: AgentId, parameters: PublishedParameters) -> Result<Self, PomcpError> {
         let physics = scene.physics();
         let PublishedParameters { simulations, rollout_steps, c_init, c_base, .. } = parameters;
-        let settings = PomcpSettings { simulations, rollout_steps, c_init, c_base, ..PomcpSettings::default() };
+        let settings =
+            PomcpSettings { simulations, rollout_steps, c_init, c_base, ..PomcpSettings::default() };
         settings.validate()?;
         let imagined = imagined(&physics, &parameters);
         Ok(Self {
@@ -50,6 +51,7 @@ impl Mind {
                 physics,
                 agent,
                 goals: scene.goals(),
+                hindering: scene.agents.iter().any(|agent| agent.attitude == Attitude::Hinder),
                 attitude: scene.agents[agent].attitude,
             },
             previous: 0,
@@ -114,10 +116,17 @@ impl Mind {
         Ok((action, thought))
     }
 
-    /// Lets the next decision go on in the original's random numbers where another mind's last one ended: the
-    /// second agent's search follows the first one's in the same stream. Without it, the stream begins anew.
-    pub const fn follow(&mut self, first: &Self) {
-        self.previous = first.drawn;
+    /// Where the last decision has left the original's stream of random numbers, as words drawn; 0 with other
+    /// random numbers.
+    #[must_use]
+    pub const fn stream_position(&self) -> u64 {
+        self.drawn
+    }
+
+    /// Lets the next decision begin at a position of the original's stream, instead of anew: the second
+    /// agent's search follows the first one's in the same stream.
+    pub const fn begin_at(&mut self, position: u64) {
+        self.previous = position;
     }
 
     /// The subgoal of each particle; equal ones are thought about once.
@@ -132,7 +141,7 @@ impl Mind {
 
     fn search(&mut self, aim: Aim, roots: &[State], seed: u64) -> Findings {
         let Rules { agent, physics, layout, .. } = &self.rules;
-        let actions = aim.actions(*agent, self.parameters.older_actions, &roots[0]);
+        let actions = aim.actions(*agent, self.parameters.older_actions && self.rules.hindering, &roots[0]);
         if let [only] = *actions {
             return Findings { action: only, evaluations: Vec::new(), drawn: 0 };
         }

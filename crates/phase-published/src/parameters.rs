@@ -30,16 +30,14 @@ pub struct PublishedParameters {
     /// Whether bodies collide with each other in the search, as they do in the original; if not, they pass
     /// through each other.
     pub collisions: bool,
-    /// Whether agents on the way to a landmark push in all directions, as they do in recordings made before
-    /// the 28th of August 2020 (inferred); if not, they turn, push forward or let themselves slide.
-    #[serde(default)]
+    /// Whether agents push in all directions on the way to a landmark where one hinders, as they do in the
+    /// recordings of before the 28th of August 2020, which are the hindering ones (inferred); if not, they
+    /// turn, push forward or let themselves slide.
     pub older_actions: bool,
     /// Whether agents of the greatest strength coast when they mean to stop, in the mind's imagination. That
     /// is how it was when the published events were recorded; the bodies' own settings are elsewhere.
-    #[serde(default)]
     pub strongest_coasts: bool,
     /// Where the random numbers of searches come from.
-    #[serde(default)]
     pub random: RandomNumbers,
 }
 

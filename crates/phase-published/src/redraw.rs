@@ -20,8 +20,9 @@ pub struct Redraw<'a> {
     pub seen: &'a CellSet,
     /// What the agent observes.
     pub observation: &'a Observation,
-    /// The state of the world: the original looks at it, and tolerates an unseen body near its true place.
-    pub truth: &'a State,
+    /// The state of the world, where it is known: the original looks at it, and tolerates an unseen body near
+    /// its true place.
+    pub truth: Option<&'a State>,
 }
 
 impl Redraw<'_> {
@@ -34,8 +35,7 @@ impl Redraw<'_> {
     /// Redraws the bodies of a particle that contradict the observation.
     pub(crate) fn apply(&self, particle: &mut State, random: &mut impl Rng) {
         let unseen = self.physics.entities().filter(|&entity| !self.observation.observed.contains(entity));
-        let contradicted: BodySet =
-            unseen.filter(|&entity| self.contradicts(particle, entity)).collect();
+        let contradicted: BodySet = unseen.filter(|&entity| self.contradicts(particle, entity)).collect();
         if contradicted.is_empty() {
             return;
         }
@@ -113,8 +113,9 @@ impl Redraw<'_> {
             return false;
         }
         let perimeter = Perimeter::of(self.physics, entity, body);
-        let off = (body.position - self.truth.position(entity)).abs();
-        let is_near = off.max_element() <= NEAR_TRUTH;
+        let is_near = self
+            .truth
+            .is_some_and(|truth| (body.position - truth.position(entity)).abs().max_element() <= NEAR_TRUTH);
         !perimeter.out_of_range
             && (is_near || !perimeter.cells.iter().any(|&cell| self.observation.visible.contains(cell)))
     }

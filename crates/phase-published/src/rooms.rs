@@ -39,9 +39,8 @@ impl Rooms {
     #[must_use]
     pub fn new(layout: Layout) -> Self {
         let map = Map::new(layout);
-        let table = |from: RoomId| {
-            RoomId::ALL.map(|to| map.crossing(from, to).map(|crossing| crossing.opening))
-        };
+        let table =
+            |from: RoomId| RoomId::ALL.map(|to| map.crossing(from, to).map(|crossing| crossing.opening));
         let way = |from: RoomId, to: RoomId| {
             let crossings = map.way(from, to, 0.0)?;
             let middles: Vec<Vec2> = crossings.iter().map(|crossing| crossing.opening.middle()).collect();

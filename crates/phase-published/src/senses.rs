@@ -1,7 +1,10 @@
 //! The observations of an agent of the published simulator: a cone of cells with occlusion, touch by scaled
 //! outlines, and one link of what touches what is observed.
 
-use crate::{perimeter::Perimeter, recorded::{SIGHT_GRAIN, TOUCH_SCALE}};
+use crate::{
+    perimeter::Perimeter,
+    recorded::{SIGHT_GRAIN, TOUCH_SCALE},
+};
 use phase_model::{
     AgentId, BodySet, Entity, ObjectId, PhysicsConfig, Segment, Side, State, Vec2,
     geometry::{self, Outline},
@@ -15,13 +18,19 @@ const SIGHT_TOLERANCE: f32 = 1e-4;
 /// Everything an agent observes of a state.
 #[must_use]
 pub fn observe(physics: &PhysicsConfig, state: &State, agent: AgentId) -> Observation {
-    let eye = Eye::new(physics, state, agent);
-    let visible: CellSet = Cell::all().filter(|&cell| eye.sees_cell(cell)).collect();
+    let visible = visible(physics, state, agent);
     let in_view = |entity: Entity| {
         let perimeter = Perimeter::of(physics, entity, state.body(entity));
         perimeter.cells.iter().any(|&cell| visible.contains(cell))
     };
     Observation::of(physics, state, agent, visible, observed(physics, state, agent, in_view))
+}
+
+/// The cells that an agent sees.
+#[must_use]
+pub fn visible(physics: &PhysicsConfig, state: &State, agent: AgentId) -> CellSet {
+    let eye = Eye::new(physics, state, agent);
+    Cell::all().filter(|&cell| eye.sees_cell(cell)).collect()
 }
 
 /// Whether an agent has an entity in its field of view.

@@ -43,11 +43,11 @@ impl MindState {
         let known = self.agent.take().zip(action.or(self.last_action));
         let agent = match known {
             Some((mut agent, action)) => {
-                agent.perceive(action, observation, &mut self.belief_random);
+                agent.perceive(action, observation, &[], &mut self.belief_random);
                 self.last_action = Some(action);
                 agent
             }
-            None => Agent::new(&self.scene, &self.parameters, observation, &mut self.belief_random)
+            None => Agent::new(&self.scene, &self.parameters, observation, None, &mut self.belief_random)
                 .map_err(|error| error.to_string())?,
         };
         let agent = self.agent.insert(agent);

@@ -1,7 +1,7 @@
 //! Physics engine, length of events and search effort of agents, as somebody asked for them.
 
 use crate::error::RunError;
-use phase_minds::{Foresight, MindKind, MindParameters, PhaseParameters};
+use phase_minds::{Foresight, MindKind, MindParameters, PhaseParameters, Recorder};
 use phase_sim::{Engine, SimulationSettings};
 
 /// Choice of the minds that agents have.
@@ -11,13 +11,24 @@ pub struct MindChoice {
     pub kind: Option<MindKind>,
     /// Whether all turns go one way, as in the published recordings: left, and right in a reflected layout.
     pub one_way_turns: bool,
+    /// Whether `stop` has no effect on agents of the greatest strength, as in the published recordings.
+    pub strongest_coasts: bool,
+    /// Whether published minds draw the random numbers of the original, which repeat in every search.
+    pub original_random: bool,
 }
 
 impl MindChoice {
     /// Whether nothing was chosen that differs from the default.
     #[must_use]
     pub fn is_default(&self) -> bool {
-        self.kind.unwrap_or_default() == MindKind::default() && !self.one_way_turns
+        *self == Self { kind: self.kind, ..Self::default() }
+            && self.kind.unwrap_or_default() == MindKind::default()
+    }
+
+    /// The defects of the agents' bodies.
+    #[must_use]
+    pub const fn recorder(&self) -> Recorder {
+        Recorder { one_way_turns: self.one_way_turns, strongest_coasts: self.strongest_coasts }
     }
 
     /// The name of a method that imagines such minds.
@@ -75,11 +86,16 @@ impl Effort {
         if let Some(simulations) = self.simulations {
             minds = minds.with_simulations(simulations as usize);
         }
+        if self.minds.original_random && minds.kind() != MindKind::Published {
+            return Err(RunError::Usage("--original-random: only published minds have them".into()));
+        }
+        let minds = minds.as_recorded(self.minds.original_random, self.minds.strongest_coasts);
         let defaults = SimulationSettings::default();
         Ok(SimulationSettings {
             engine: self.engine.unwrap_or_default(),
             max_steps: self.max_steps.map_or(defaults.max_steps, |steps| steps as usize),
             one_way_turns: self.minds.one_way_turns,
+            strongest_coasts: self.minds.strongest_coasts,
             minds,
             ..defaults
         })
@@ -92,10 +108,15 @@ impl Effort {
             [("particles", self.particles), ("simulations", self.simulations), ("max-steps", self.max_steps)];
         let engine = self.engine.map(|engine| format!(" --engine {}", engine.name()));
         let minds = self.minds.kind.map(|minds| format!(" --minds {}", minds.name()));
-        let turns = self.minds.one_way_turns.then(|| " --one-way-turns".to_owned());
+        let switches = [
+            (self.minds.one_way_turns, " --one-way-turns"),
+            (self.minds.strongest_coasts, " --strongest-coasts"),
+            (self.minds.original_random, " --original-random"),
+        ];
+        let switches = switches.into_iter().filter(|(on, _)| *on).map(|(_, option)| option.to_owned());
         let foresight = self.foresight.map(|foresight| format!(" --foresight {}", foresight.name()));
         let given = numbers.into_iter().filter_map(|(name, value)| Some(format!(" --{name} {}", value?)));
-        engine.into_iter().chain(minds).chain(turns).chain(foresight).chain(given).collect()
+        engine.into_iter().chain(minds).chain(switches).chain(foresight).chain(given).collect()
     }
 }
 
@@ -111,10 +132,12 @@ pub fn description(settings: &SimulationSettings) -> String {
         MindParameters::Published(_) => ", without collisions".to_owned(),
     };
     let turns = if *one_way_turns { ", one-way turns" } else { "" };
+    let stops = if settings.strongest_coasts { ", coasting strongest" } else { "" };
+    let random = if minds.has_original_random() { ", original random numbers" } else { "" };
     let particles = minds.particles();
     let simulations = minds.simulations();
     format!(
-        "engine {engine}, {kind} minds{turns}{search}, {particles} particles, {simulations} simulations, at most \
+        "engine {engine}, {kind} minds{turns}{stops}{random}{search}, {particles} particles, {simulations} simulations, at most \
          {max_steps} steps"
     )
 }

@@ -25,12 +25,12 @@ pub fn beliefs(event: &Event, agent: AgentId, minds: &MindParameters) -> Vec<Bel
     let physics = event.scene.physics();
     let mut random = belief_stream(event.seed, agent);
     let first = observe(minds.kind(), &physics, &event.initial, agent);
-    let mut belief = belief(event.scene.layout, &physics, minds, &first, &mut random);
+    let mut belief = belief(event.scene.layout, &physics, minds, &first, Some(&event.initial), &mut random);
     let mut snapshots =
         vec![BeliefSnapshot { visible: first.visible, particles: belief.particles().to_vec() }];
     for step in &event.steps {
         let observation = belief.observe(&step.substeps[SUBSTEPS - 1]);
-        belief.update(step.actions[agent], &observation, &mut random);
+        belief.update(step.actions[agent], &observation, &step.substeps, &mut random);
         snapshots
             .push(BeliefSnapshot { visible: observation.visible, particles: belief.particles().to_vec() });
     }

@@ -1,6 +1,6 @@
 //! Settings of a simulation: engine, length, parameters of the minds.
 
-use phase_minds::{MindParameters, RangeError};
+use phase_minds::{MindParameters, RangeError, Recorder};
 use phase_model::AgentId;
 use serde::{Deserialize, Serialize};
 
@@ -64,11 +64,21 @@ pub struct SimulationSettings {
     /// Whether bodies turn one way whichever way their minds choose: to the left, and to the right in a
     /// reflected layout. It is a defect of the published recorder, of which its minds do not know.
     pub one_way_turns: bool,
+    /// Whether `stop` has no effect on agents of the greatest strength, another defect of that recorder, of
+    /// which its minds do know ([`phase_minds::PublishedParameters`]).
+    #[serde(default, skip_serializing_if = "core::ops::Not::not")]
+    pub strongest_coasts: bool,
     /// Parameters of both agents' minds.
     pub minds: MindParameters,
 }
 
 impl SimulationSettings {
+    /// The defects of the agents' bodies.
+    #[must_use]
+    pub const fn recorder(&self) -> Recorder {
+        Recorder { one_way_turns: self.one_way_turns, strongest_coasts: self.strongest_coasts }
+    }
+
     /// Checks that every parameter of the minds is in its range.
     ///
     /// # Errors
@@ -89,6 +99,7 @@ impl Default for SimulationSettings {
             idle: None,
             stop_between_steps: false,
             one_way_turns: false,
+            strongest_coasts: false,
             minds: MindParameters::default(),
         }
     }

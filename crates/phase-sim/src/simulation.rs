@@ -3,7 +3,7 @@
 use crate::{SimulationSettings, environment::Environment};
 use core::ops::ControlFlow;
 use phase_event::{Event, Step, Thought};
-use phase_minds::{Agent, RangeError, carried_out, observe};
+use phase_minds::{Agent, RangeError, observe};
 use phase_model::{
     AGENT_COUNT, Action, AgentId, PhysicsConfig, Scene, SceneError, State, Subgoal,
     arena::SUBSTEPS,
@@ -169,7 +169,9 @@ impl Simulation {
         let before = self.state;
         let settings = &self.settings;
         let layout = self.event.scene.layout;
-        let carried_out = actions.map(|action| carried_out(action, settings.one_way_turns, layout));
+        let recorder = settings.recorder();
+        let carried_out = AgentId::ALL
+            .map(|agent| recorder.carried_out(actions[agent], &self.physics.agents[agent], layout));
         let mut substeps = self.world.step(carried_out);
         if settings.stop_between_steps {
             substeps[SUBSTEPS - 1] = self.world.stop_agents();
@@ -203,7 +205,7 @@ impl Simulation {
     /// Tells both agents what came of the last step; of an event's last step nobody has to know.
     fn perceive(&mut self) {
         if let (false, Some(last)) = (self.perceived, self.event.steps.last()) {
-            self.minds.perceive(&self.state, last.actions);
+            self.minds.perceive(&last.substeps, last.actions);
             self.perceived = true;
         }
     }
@@ -271,6 +273,8 @@ struct Minds {
     decided: [Option<(Action, Thought)>; AGENT_COUNT],
     /// The idle agent, if any.
     idle: Option<AgentId>,
+    /// Where the first agent's decision has left the original's random numbers, until the second decides.
+    led_to: Option<u64>,
 }
 
 impl Minds {
@@ -287,12 +291,12 @@ impl Minds {
         let mut mind = |agent: AgentId| {
             let mut new = || {
                 let first = observe(settings.minds.kind(), &physics, initial, agent);
-                Agent::new(scene, &settings.minds, &first, &mut beliefs[agent])
+                Agent::new(scene, &settings.minds, &first, Some(initial), &mut beliefs[agent])
             };
             minds[agent].then(&mut new).transpose()
         };
         let agents = [mind(AgentId::ZERO)?, mind(AgentId::ONE)?];
-        Ok(Self { agents, beliefs, searches, decided: [None, None], idle: settings.idle })
+        Ok(Self { agents, beliefs, searches, decided: [None, None], idle: settings.idle, led_to: None })
     }
 
     fn decide(
@@ -317,7 +321,17 @@ impl Minds {
             return Ok(decided);
         }
         match &mut self.agents[agent] {
-            Some(mind) if self.idle != Some(agent) => Ok(mind.decide(&mut self.searches[agent])?),
+            Some(mind) if self.idle != Some(agent) => {
+                // The original's random numbers go on from the first agent's search to the second's.
+                if let (AgentId::ONE, Some(position)) = (agent, self.led_to.take()) {
+                    mind.begin_at(position);
+                }
+                let decided = mind.decide(&mut self.searches[agent])?;
+                if agent == AgentId::ZERO {
+                    self.led_to = Some(mind.stream_position());
+                }
+                Ok(decided)
+            }
             _ => Ok((Action::Stop, Thought::IDLE)),
         }
     }
@@ -329,14 +343,15 @@ impl Minds {
         Ok(())
     }
 
-    fn perceive(&mut self, state: &State, actions: [Action; AGENT_COUNT]) {
+    fn perceive(&mut self, substeps: &[State; SUBSTEPS], actions: [Action; AGENT_COUNT]) {
+        let state = &substeps[SUBSTEPS - 1];
         for (agent, mind) in AgentId::ALL.into_iter().zip(&mut self.agents) {
             if self.idle == Some(agent) {
                 continue;
             }
             if let Some(mind) = mind {
                 let observation = mind.observe(state);
-                mind.perceive(actions[agent], &observation, &mut self.beliefs[agent]);
+                mind.perceive(actions[agent], &observation, substeps, &mut self.beliefs[agent]);
             }
         }
     }

@@ -87,8 +87,8 @@ fn minds_that_read_vectors_play_the_simulated_event() {
                 let seen = vector::read(agent, &numbers).unwrap();
                 let [belief, search] = &mut streams[k];
                 match &mut agents[k] {
-                    Some(mind) => mind.perceive(last[k], &seen, belief),
-                    none => *none = Some(Agent::new(&scene, &minds, &seen, belief).unwrap()),
+                    Some(mind) => mind.perceive(last[k], &seen, &[], belief),
+                    none => *none = Some(Agent::new(&scene, &minds, &seen, None, belief).unwrap()),
                 }
                 let mind = agents[k].as_mut().unwrap();
                 actions[k] = mind.decide(search).unwrap().0;

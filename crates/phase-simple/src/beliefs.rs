@@ -5,6 +5,7 @@ use phase_event::ObservedEvent;
 use phase_minds::{BeliefState, MindParameters, belief, observe};
 use phase_model::{
     AGENT_COUNT, Action, AgentId, BodySet, State,
+    arena::SUBSTEPS,
     random::{self, Pcg64Mcg, Purpose},
 };
 use phase_perception::Observation;
@@ -31,7 +32,7 @@ impl EstimatedBeliefs {
         let physics = observed.physics([0.0; AGENT_COUNT]);
         let mut random = random::stream(seed, Purpose::Belief, agent.number().into());
         let seen = observe(minds.kind(), &physics, &states[0], agent);
-        let first = belief(observed.layout(), &physics, minds, &seen, &mut random);
+        let first = belief(observed.layout(), &physics, minds, &seen, Some(&states[0]), &mut random);
         let mut beliefs = Self { steps: vec![(first, random)] };
         beliefs.follow(states, 1);
         beliefs
@@ -45,7 +46,8 @@ impl EstimatedBeliefs {
             let (mut belief, mut random) = self.steps[self.steps.len() - 1].clone();
             // Which action it was does not matter: its outcome is observed.
             let observation: Observation = belief.observe(state);
-            belief.update(Action::NoForce, &observation, &mut random);
+            let before = states[self.steps.len() - 1];
+            belief.update(Action::NoForce, &observation, &between(&before, state), &mut random);
             self.steps.push((belief, random));
         }
     }
@@ -70,4 +72,17 @@ impl EstimatedBeliefs {
     pub(crate) fn after(&self, step: usize) -> &dyn BeliefState {
         &*self.steps[step].0
     }
+}
+
+/// The states after the substeps of an observed step, bodies moved evenly from its start to its end.
+fn between(before: &State, after: &State) -> [State; SUBSTEPS] {
+    core::array::from_fn(|substep| {
+        let share = (substep + 1) as f32 / SUBSTEPS as f32;
+        let mut state = *after;
+        for (body, from) in state.bodies.iter_mut().zip(&before.bodies) {
+            body.position = from.position.lerp(body.position, share);
+            body.angle = from.angle + (body.angle - from.angle) * share;
+        }
+        state
+    })
 }

@@ -3,9 +3,9 @@
 use crate::{Hypothesis, ImaginedAgents, InverseDynamics, beliefs::EstimatedBeliefs};
 use phase_event::{ObservedEvent, Thought};
 use phase_forward::{Forward, SolverCache};
-use phase_minds::{BeliefView, Mind, MindParameters, SearchMemo, carried_out, mind, mind_sharing};
+use phase_minds::{BeliefView, Mind, MindParameters, Recorder, SearchMemo, mind, mind_sharing};
 use phase_model::{
-    AGENT_COUNT, Action, AgentId, Body, BodySet, Entity, Layout, MAX_ENTITIES, State, Vec2,
+    AGENT_COUNT, Action, AgentBody, AgentId, Body, BodySet, Entity, Layout, MAX_ENTITIES, State, Vec2,
     arena::SUBSTEPS,
     random::{self, Pcg64Mcg, Purpose},
 };
@@ -169,6 +169,7 @@ impl PreparedEvent {
             if step > 0 && step % resync_interval.max(1) == 0 {
                 self.resynchronise(&mut run, step);
             }
+            self.lead(&mut run, agent, step)?;
             let belief_view = self.beliefs[agent].belief_view(step, &run.state);
             let (action, thought) = run.decide(agent, &belief_view)?;
             let mut actions = *action_likelihoods;
@@ -234,8 +235,18 @@ impl PreparedEvent {
         self.resynchronise(run, step);
         let seed = random::derive_seed(self.seed, Purpose::Search, step as u64);
         run.random = AgentId::ALL.map(|agent| random::stream(seed, Purpose::Search, agent.number().into()));
+        self.lead(run, agent, step)?;
         let belief_view = self.beliefs[agent].belief_view(step, &run.state);
         run.decide(agent, &belief_view)
+    }
+
+    /// Lets the first agent decide where the second one's random numbers follow from its own.
+    fn lead(&self, run: &mut SimulationRun, agent: AgentId, step: usize) -> Result<(), PomcpError> {
+        if run.shares_random && agent == AgentId::ONE {
+            let belief_view = self.beliefs[AgentId::ZERO].belief_view(step, &run.state);
+            run.decide(AgentId::ZERO, &belief_view)?;
+        }
+        Ok(())
     }
 
     /// Continues for the given number of steps from the state after `start` observed steps: where every
@@ -274,7 +285,7 @@ impl PreparedEvent {
             }
             for (agent, belief) in AgentId::ALL.into_iter().zip(&mut beliefs) {
                 let observation = belief.observe(&run.state);
-                belief.update(actions[agent], &observation, &mut random[agent]);
+                belief.update(actions[agent], &observation, &run.substeps, &mut random[agent]);
             }
         }
         Ok(forecast)
@@ -296,13 +307,20 @@ pub struct AgentDecision {
 #[derive(Debug)]
 pub(crate) struct SimulationRun {
     layout: Layout,
-    one_way_turns: bool,
+    recorder: Recorder,
+    bodies: [AgentBody; AGENT_COUNT],
+    /// Whether both minds draw from one stream of random numbers, as in the original.
+    shares_random: bool,
     forward: Forward,
     minds: [Box<dyn Mind>; AGENT_COUNT],
     random: [Pcg64Mcg; AGENT_COUNT],
     state: State,
     cache: SolverCache,
+    /// The states after the substeps of the last step.
+    substeps: [State; SUBSTEPS],
     last_actions: [Option<Action>; AGENT_COUNT],
+    /// Where the first agent's decision has left the original's random numbers, until the second decides.
+    led_to: Option<u64>,
 }
 
 /// The states that each agent believes possible, and the entities that it observes.
@@ -329,8 +347,24 @@ impl SimulationRun {
         let cache = forward.fresh_cache(&state);
         let layout = scene.layout;
         let last_actions = [None; AGENT_COUNT];
-        let one_way_turns = agents.one_way_turns;
-        Ok(Self { layout, one_way_turns, forward, minds, random, state, cache, last_actions })
+        let recorder = agents.recorder();
+        let shares_random = agents.minds.has_original_random();
+        let substeps = [state; SUBSTEPS];
+        let bodies = physics.agents;
+        Ok(Self {
+            layout,
+            recorder,
+            bodies,
+            shares_random,
+            forward,
+            minds,
+            random,
+            state,
+            cache,
+            substeps,
+            last_actions,
+            led_to: None,
+        })
     }
 
     /// Sets the world to a state that both agents' actions have led to, if they have acted.
@@ -360,14 +394,22 @@ impl SimulationRun {
     ) -> Result<(Action, Thought), PomcpError> {
         let belief_view =
             BeliefView { particles, observed: *observed, last_action: self.last_actions[agent] };
+        // The original's random numbers go on from the first agent's search to the second's.
+        if let (AgentId::ONE, Some(position)) = (agent, self.led_to.take()) {
+            self.minds[agent].begin_at(position);
+        }
         let (action, thought) = self.minds[agent].decide(belief_view, &mut self.random[agent])?;
-        Ok((carried_out(action, self.one_way_turns, self.layout), thought))
+        if agent == AgentId::ZERO {
+            self.led_to = Some(self.minds[agent].stream_position());
+        }
+        Ok((self.recorder.carried_out(action, &self.bodies[agent], self.layout), thought))
     }
 
     /// Both act: the mean positions of all bodies over the step.
     fn act(&mut self, actions: [Action; AGENT_COUNT]) -> [Vec2; MAX_ENTITIES] {
         self.last_actions = actions.map(Some);
-        let substeps = self.forward.step_warm(&mut self.state, &mut self.cache, actions);
+        self.substeps = self.forward.step_warm(&mut self.state, &mut self.cache, actions);
+        let substeps = &self.substeps;
         let mean = |entity: usize| {
             let sum = substeps.iter().fold(Vec2::ZERO, |sum, substep| sum + substep.bodies[entity].position);
             sum / SUBSTEPS as f32

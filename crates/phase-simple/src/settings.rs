@@ -1,7 +1,7 @@
 //! Settings of an inference.
 
 use crate::cue::GAMMA;
-use phase_minds::{MindKind, MindParameters, PublishedParameters};
+use phase_minds::{MindKind, MindParameters, PublishedParameters, Recorder};
 use phase_model::AGENT_COUNT;
 use serde::{Deserialize, Serialize};
 
@@ -67,6 +67,9 @@ pub struct ImaginedAgents {
     /// Whether bodies turn one way whichever way their minds choose, a defect of the published recorder: to
     /// the left, and to the right in a reflected layout.
     pub one_way_turns: bool,
+    /// Whether `stop` has no effect on agents of the greatest strength, another defect of that recorder.
+    #[serde(default, skip_serializing_if = "core::ops::Not::not")]
+    pub strongest_coasts: bool,
     /// Parameters of both agents' minds.
     pub minds: MindParameters,
 }
@@ -82,11 +85,19 @@ impl ImaginedAgents {
                 let minds = PublishedParameters {
                     simulations: PUBLISHED_SIMULATIONS,
                     searches: PUBLISHED_SEARCHES,
+                    strongest_coasts: true,
+                    older_actions: true,
                     ..PublishedParameters::default()
                 };
-                Self { one_way_turns: true, minds: minds.into() }
+                Self { one_way_turns: true, strongest_coasts: true, minds: minds.into() }
             }
         }
+    }
+
+    /// The defects of their bodies.
+    #[must_use]
+    pub const fn recorder(&self) -> Recorder {
+        Recorder { one_way_turns: self.one_way_turns, strongest_coasts: self.strongest_coasts }
     }
 
     /// These agents with other minds.
@@ -99,7 +110,7 @@ impl ImaginedAgents {
 impl From<MindParameters> for ImaginedAgents {
     /// Agents whose bodies turn as their minds choose.
     fn from(minds: MindParameters) -> Self {
-        Self { one_way_turns: false, minds }
+        Self { one_way_turns: false, strongest_coasts: false, minds }
     }
 }
 

@@ -199,10 +199,17 @@ pub struct ImaginedMinds {
     /// layout
     #[arg(long)]
     pub one_way_turns: bool,
+    /// Agents of the greatest strength coast when they mean to stop, as in the published recordings
+    #[arg(long)]
+    pub strongest_coasts: bool,
+    /// Published minds draw the random numbers of the original, which repeat in every search
+    #[arg(long)]
+    pub original_random: bool,
 }
 
 impl From<ImaginedMinds> for MindOptions {
-    fn from(ImaginedMinds { minds, one_way_turns }: ImaginedMinds) -> Self {
-        Self { minds, one_way_turns }
+    fn from(options: ImaginedMinds) -> Self {
+        let ImaginedMinds { minds, one_way_turns, strongest_coasts, original_random } = options;
+        Self { minds, one_way_turns, strongest_coasts, original_random }
     }
 }

@@ -128,7 +128,11 @@ impl View<'_> {
         if let Some(aim) = self.keep_apart(object) {
             return aim;
         }
-        if holding { self.drag_away(object).unwrap_or(last) } else { Aim::Grab(self.me, object, Sign::Positive) }
+        if holding {
+            self.drag_away(object).unwrap_or(last)
+        } else {
+            Aim::Grab(self.me, object, Sign::Positive)
+        }
     }
 
     /// Keeps an object away from the other.
@@ -165,7 +169,11 @@ impl View<'_> {
         if !self.rooms().blocked(self.my_room(), there, self.radius(self.me)) {
             return None;
         }
-        Some(if self.is_taken(object) { Aim::Stop } else { Aim::AgentToRoom(self.other, there, Sign::Negative) })
+        Some(if self.is_taken(object) {
+            Aim::Stop
+        } else {
+            Aim::AgentToRoom(self.other, there, Sign::Negative)
+        })
     }
 
     /// What to do where walls can keep an object from the other; `None` if they cannot.
@@ -184,8 +192,7 @@ impl View<'_> {
         let way = self.rooms().way(others, there).unwrap_or_default();
         let is_between = way.len() > 2 && way[1..way.len() - 1].contains(&here);
         // Whatever the way, the original names the room with number 3.
-        is_between
-            .then(|| Aim::AgentToRoom(self.other, self.rules.room(RoomId::BOTTOM_LEFT), Sign::Negative))
+        is_between.then(|| Aim::AgentToRoom(self.other, self.rules.room(RoomId::BOTTOM_LEFT), Sign::Negative))
     }
 
     /// Drags an object to the room farthest from it that is nearer to it than to the other. `None` if there is
@@ -193,7 +200,8 @@ impl View<'_> {
     fn drag_away(&self, object: ObjectId) -> Option<Aim> {
         let (there, others) = (self.object_room(object), self.other_room());
         let far_from = |entity| move |room| self.rooms().room_distance(self.state.position(entity), room);
-        let (from_object, from_other) = (far_from(Entity::Object(object)), far_from(Entity::Agent(self.other)));
+        let (from_object, from_other) =
+            (far_from(Entity::Object(object)), far_from(Entity::Agent(self.other)));
         let room = RoomId::ALL
             .into_iter()
             .filter(|&room| room != others && room != there && from_object(room) < from_other(room))
@@ -219,7 +227,11 @@ impl View<'_> {
         let holding = self.state.held_object(self.me).is_some();
         let there = self.room(Entity::Object(object));
         if holding {
-            return if there == room { Aim::Grab(self.me, object, Sign::Negative) } else { Aim::ObjectToRoom(object, self.rooms().next(there, room)) };
+            return if there == room {
+                Aim::Grab(self.me, object, Sign::Negative)
+            } else {
+                Aim::ObjectToRoom(object, self.rooms().next(there, room))
+            };
         }
         if there == room { Aim::Stop } else { self.put(object, room.landmark()) }
     }

@@ -4,7 +4,12 @@ mod adversarial;
 mod friendly;
 mod neutral;
 
-use crate::{aim::Aim, recorded::CARRYING_WIDTH, rooms::Rooms, senses::{attachable, in_view}};
+use crate::{
+    aim::Aim,
+    recorded::CARRYING_WIDTH,
+    rooms::Rooms,
+    senses::{attachable, in_view},
+};
 use phase_model::{
     AGENT_COUNT, AgentId, Attitude, Entity, Goal, LandmarkId, Layout, ObjectId, PhysicsConfig, RoomId, Sign,
     State, arena, layout::room_of,
@@ -19,6 +24,8 @@ pub(crate) struct Rules {
     pub(crate) agent: AgentId,
     pub(crate) goals: [Goal; AGENT_COUNT],
     pub(crate) attitude: Attitude,
+    /// Whether one of the agents hinders the other.
+    pub(crate) hindering: bool,
 }
 
 impl Rules {

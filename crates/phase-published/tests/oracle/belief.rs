@@ -1,6 +1,6 @@
 //! Belief updates, particle by particle.
 
-use crate::cases::{Tally, agent, action, cases, cells, entity, list, name, physics, state, whole};
+use crate::cases::{Tally, action, agent, cases, cells, entity, list, name, physics, state, whole};
 use phase_belief::overwrite;
 use phase_forward::Imagined;
 use phase_model::{Action, Dynamics, Entity};
@@ -27,7 +27,13 @@ fn belief_updates_are_the_originals() {
         let seen = cells(&case["ever_seen"]);
         let mut actions = [Action::NoForce; 2];
         actions[who.index()] = action(&case["action"]);
-        let redraw = Redraw { physics: &physics, flip: None, seen: &seen, observation: &observation, truth: &truth };
+        let redraw = Redraw {
+            physics: &physics,
+            flip: None,
+            seen: &seen,
+            observation: &observation,
+            truth: Some(&truth),
+        };
         for it in list(&case["particles"]) {
             let mut particle = state(&it["before"], &it["before_grips"]);
             forward.step(&mut particle, actions);
@@ -52,7 +58,9 @@ fn belief_updates_are_the_originals() {
             }
         }
     }
-    println!("imagined: {imagined}; grips: {grips}; observed: {observed}; visible: {visible}; overwritten: {overwritten}; redrawn: {redrawn}");
+    println!(
+        "imagined: {imagined}; grips: {grips}; observed: {observed}; visible: {visible}; overwritten: {overwritten}; redrawn: {redrawn}"
+    );
     for tally in [observed, visible, redrawn, overwritten] {
         assert_eq!(tally.different, 0);
     }

@@ -119,7 +119,8 @@ pub(crate) fn state(bodies: &Value, grips: &Value) -> State {
         }
         let object = object(whole(&grips[holder.index()]));
         let body = *state.body(Entity::Agent(holder));
-        let towards = Vec2::from_angle(-body.angle).rotate(state.position(Entity::Object(object)) - body.position);
+        let towards =
+            Vec2::from_angle(-body.angle).rotate(state.position(Entity::Object(object)) - body.position);
         let side = Side::ALL
             .into_iter()
             .max_by(|a, b| a.direction().dot(towards).total_cmp(&b.direction().dot(towards)))
@@ -178,8 +179,20 @@ pub(crate) fn goal(it: &Value) -> Goal {
 
 pub(crate) fn action(name: &Value) -> Action {
     let names = [
-        "turnleft", "turnright", "up", "down", "left", "right", "upleft", "upright", "downleft", "downright",
-        "stop", "noforce", "attach", "detach",
+        "turnleft",
+        "turnright",
+        "up",
+        "down",
+        "left",
+        "right",
+        "upleft",
+        "upright",
+        "downleft",
+        "downright",
+        "stop",
+        "noforce",
+        "attach",
+        "detach",
     ];
     let index = names.iter().position(|it| *it == text(name)).expect("an action");
     Action::ALL[index]

@@ -49,7 +49,10 @@ fn imagined_steps_are_the_originals() {
     }
     errors.sort_by(f32::total_cmp);
     let at = |share: f64| errors[((errors.len() - 1) as f64 * share) as usize];
-    println!("positions: {places}; grips: {grips}; error at 50 %, 90 %, 99 %, 100 %: {:?}", [0.5, 0.9, 0.99, 1.0].map(at));
+    println!(
+        "positions: {places}; grips: {grips}; error at 50 %, 90 %, 99 %, 100 %: {:?}",
+        [0.5, 0.9, 0.99, 1.0].map(at)
+    );
     for (action, tally) in &by_action {
         println!("{action}: {tally}");
     }

@@ -2,11 +2,11 @@
 
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::indexing_slicing, clippy::panic)]
 
+mod belief;
 mod cases;
+mod decisions;
+mod imagined;
 mod observe;
 mod reward;
 mod rules;
 mod selection;
-mod imagined;
-mod belief;
-mod decisions;

@@ -33,8 +33,13 @@ fn observations_are_the_originals() {
                 format!("{}, {who}: observes {:?}, theirs {known:?}", name(case), found.observed)
             });
             let view = entities(&theirs["in_view"]);
-            let ours: BodySet = physics.entities().filter(|&it| it != phase_model::Entity::Agent(who) && in_view(&physics, &state, who, it)).collect();
-            viewed.add(ours == view, || format!("{}, {who}: has {ours:?} in view, theirs {view:?}", name(case)));
+            let ours: BodySet = physics
+                .entities()
+                .filter(|&it| it != phase_model::Entity::Agent(who) && in_view(&physics, &state, who, it))
+                .collect();
+            viewed.add(ours == view, || {
+                format!("{}, {who}: has {ours:?} in view, theirs {view:?}", name(case))
+            });
             for (k, able) in list(&theirs["attachable"]).iter().enumerate() {
                 let ours = attachable(&physics, &state, who, object(k));
                 grabbed.add(Some(ours) == able.as_bool(), || {

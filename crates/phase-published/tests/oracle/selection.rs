@@ -1,7 +1,10 @@
 //! The subgoal pursued among those of the particles.
 
 use crate::cases::{Tally, agent, aim, cases, goal, list, name, real, scene, state, text, whole};
-use phase_model::{Attitude, random::{Purpose, stream}};
+use phase_model::{
+    Attitude,
+    random::{Purpose, stream},
+};
 use phase_published::{Mind, PublishedParameters};
 
 #[test]

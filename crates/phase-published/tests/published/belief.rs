@@ -3,7 +3,7 @@
 use crate::common::{BALL, ME, OTHER, on_landmark, random, scene};
 use phase_model::{Action, Attitude, Entity, LandmarkId, ObjectId, Scene, State};
 use phase_perception::Cell;
-use phase_published::{Belief, senses::observe};
+use phase_published::{Belief, PublishedParameters, senses::observe};
 
 fn setting() -> (Scene, State) {
     let goals = [on_landmark(ME, LandmarkId::TOP_LEFT), on_landmark(OTHER, LandmarkId::TOP_LEFT)];
@@ -15,7 +15,8 @@ fn setting() -> (Scene, State) {
 
 fn belief(scene: &Scene, state: &State, seed: u64) -> Belief {
     let observation = observe(&scene.physics(), state, ME);
-    Belief::new(scene.layout, &scene.physics(), &observation, 50, &mut random(seed))
+    let parameters = PublishedParameters::default();
+    Belief::new(scene.layout, &scene.physics(), &parameters, &observation, Some(state), &mut random(seed))
 }
 
 #[test]
@@ -52,7 +53,7 @@ fn what_is_contradicted_goes_to_a_corner_of_an_unseen_cell() {
     state.body_mut(Entity::Object(ObjectId::ONE)).position = (23.0, 20.0).into();
     let observation = belief.observe(&state);
     assert!(!observation.observed.contains(Entity::Object(BALL)));
-    belief.update(Action::TurnLeft, &observation, &mut random(3));
+    belief.update(Action::TurnLeft, &observation, &[state], &mut random(3));
     let mut redrawn = 0;
     for (old, new) in before.iter().zip(belief.particles()) {
         let old = old.position(Entity::Object(BALL));
@@ -78,7 +79,7 @@ fn a_belief_survives_having_seen_everything() {
         let back = state.body(Entity::Agent(ME)).position - state.body(Entity::Agent(ME)).forward() * 3.0;
         state.body_mut(hidden).position = back;
         let observation = belief.observe(&state);
-        belief.update(Action::TurnLeft, &observation, &mut random(step));
+        belief.update(Action::TurnLeft, &observation, &[state], &mut random(step));
         assert!(belief.particles().iter().all(|particle| particle.is_finite(&scene.physics())));
     }
 }

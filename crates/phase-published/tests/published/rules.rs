@@ -26,7 +26,7 @@ fn an_agent_goes_room_by_room_and_stops_within_the_threshold() {
     let me = Entity::Agent(ME);
     for (place, room) in [((8.0, 20.0), 3), ((8.0, 4.0), 2), ((24.0, 4.0), 1)] {
         put(&mut state, me, place.into());
-        assert_eq!(aim(&scene, ME, &state), Aim::AgentToRoom(ME, RoomId::ALL[room]));
+        assert_eq!(aim(&scene, ME, &state), Aim::AgentToRoom(ME, RoomId::ALL[room], Sign::Positive));
     }
     put(&mut state, me, arena::LANDMARKS[TR] + Vec2::new(0.57, 0.0));
     assert_eq!(aim(&scene, ME, &state), Aim::AgentToLandmark(ME, TR, Sign::Positive));
@@ -41,7 +41,7 @@ fn an_object_is_approached_grabbed_dragged_and_released() {
     let (scene, mut state) = walled(ball_on(LandmarkId::BOTTOM_LEFT), BODIES);
     let me = Entity::Agent(ME);
     let ball = Entity::Object(BALL);
-    assert_eq!(aim(&scene, ME, &state), Aim::AgentToRoom(ME, RoomId::BOTTOM_LEFT));
+    assert_eq!(aim(&scene, ME, &state), Aim::AgentToRoom(ME, RoomId::BOTTOM_LEFT, Sign::Positive));
     put(&mut state, me, Vec2::new(20.0, 10.0));
     assert_eq!(aim(&scene, ME, &state), Aim::Touch(ME, ball, Sign::Positive));
     // Within r + 0.5 u of a grab point, which lies R from the origin.
@@ -65,7 +65,7 @@ fn a_fleer_wants_distance_alone() {
     let state = scene.initial_state();
     let flee = Aim::Touch(ME, Entity::Agent(OTHER), Sign::Negative);
     assert_eq!(aim(&scene, OTHER, &state), flee);
-    assert_eq!(aim(&scene, ME, &state), Aim::AgentToRoom(ME, RoomId::BOTTOM_LEFT));
+    assert_eq!(aim(&scene, ME, &state), Aim::AgentToRoom(ME, RoomId::BOTTOM_LEFT, Sign::Positive));
 }
 
 /// One particle that has the object in the agent's own room decides, however many have it elsewhere.
@@ -76,11 +76,12 @@ fn going_to_an_object_beats_every_search() {
     put(&mut near, Entity::Object(BALL), Vec2::new(14.0, 14.0));
     let mut particles = vec![state; 49];
     particles.push(near);
-    let (_, thought) = mind(&scene, ME, 10).decide(&particles, &mut random(1)).unwrap();
+    let mut mind = mind(&scene, ME, 10);
+    let (_, thought) = mind.decide(&particles, &mut random(1)).unwrap();
     assert_eq!(thought.subgoal, Aim::Touch(ME, Entity::Object(BALL), Sign::Positive).subgoal());
     assert_eq!(thought.subgoals.len(), 2);
     assert_eq!(thought.subgoals[0].particles, 49);
-    assert!((thought.subgoals[0].value - 0.98).abs() < 1e-12);
+    assert!((thought.subgoals[0].value - (0.98 - mind.cost(&state))).abs() < 1e-12);
 }
 
 /// A share of particles less 0.05 times the distance; here the distance decides against the larger share.

@@ -53,7 +53,7 @@ fn a_hinderer_follows_into_the_room_and_pushes() {
     let scene = scene(4, [goal.negated(), goal], Attitude::Hinder, BODIES);
     let mut state = scene.initial_state();
     // The other is in the room of its goal.
-    assert_eq!(aim(&scene, ME, &state), Aim::AgentToRoom(ME, RoomId::BOTTOM_LEFT));
+    assert_eq!(aim(&scene, ME, &state), Aim::AgentToRoom(ME, RoomId::BOTTOM_LEFT, Sign::Positive));
     put(&mut state, Entity::Agent(ME), (18.0, 8.0));
     assert_eq!(
         aim(&scene, ME, &state),
@@ -70,9 +70,9 @@ fn a_hinderer_goes_where_the_other_has_to_pass() {
     let scene = scene(16, [goal.negated(), goal], Attitude::Hinder, BODIES);
     let mut state = scene.initial_state();
     put(&mut state, Entity::Agent(ME), (20.0, 4.0));
-    assert_eq!(aim(&scene, ME, &state), Aim::AgentToRoom(ME, RoomId::BOTTOM_LEFT));
+    assert_eq!(aim(&scene, ME, &state), Aim::AgentToRoom(ME, RoomId::BOTTOM_LEFT, Sign::Positive));
     put(&mut state, Entity::Agent(ME), (8.0, 4.0));
-    assert_eq!(aim(&scene, ME, &state), Aim::AgentToRoom(ME, RoomId::BOTTOM_RIGHT));
+    assert_eq!(aim(&scene, ME, &state), Aim::AgentToRoom(ME, RoomId::BOTTOM_RIGHT, Sign::Positive));
 }
 
 #[test]

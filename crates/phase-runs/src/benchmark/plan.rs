@@ -136,13 +136,18 @@ pub(super) fn entries(run: &BenchmarkRun) -> Result<Vec<BenchmarkEntry>, RunErro
 }
 
 /// The minds that a method imagines in recordings or in generated events. Bodies in the recordings of the
-/// published simulator turn one way; only SIMPLE has minds.
+/// published simulator turn one way, and the strongest coast; only SIMPLE has minds.
 pub(super) fn minds_of(run: &BenchmarkRun, method: &str, recorded: bool) -> MindChoice {
     if !Simple::NAMES.contains(&method) {
         return MindChoice::default();
     }
-    let one_way_turns = recorded && run.minds == Some(MindKind::Published);
-    MindChoice { kind: run.minds, one_way_turns }
+    let as_recorded = recorded && run.minds == Some(MindKind::Published);
+    MindChoice {
+        kind: run.minds,
+        one_way_turns: as_recorded,
+        strongest_coasts: as_recorded,
+        original_random: false,
+    }
 }
 
 fn wanted(run: &BenchmarkRun, method: &str) -> bool {

@@ -77,7 +77,7 @@ fn simple(name: &str, minds: &MindChoice) -> Result<Option<Simple>, RunError> {
         return if minds.is_default() { Ok(None) } else { Err(rule()) };
     }
     let simple = Simple::named(name, &Arc::new(Models::bundled()?));
-    Ok(simple.map(|simple| simple.with_minds(minds.kind, minds.one_way_turns)))
+    Ok(simple.map(|simple| simple.with_minds(minds.kind, minds.recorder(), minds.original_random)))
 }
 
 /// The intent network alone, with the weights of a file or the bundled ones.

@@ -26,6 +26,8 @@ impl Generation {
         while let Some(word) = words.next() {
             match word {
                 "--one-way-turns" => generation.effort.minds.one_way_turns = true,
+                "--strongest-coasts" => generation.effort.minds.strongest_coasts = true,
+                "--original-random" => generation.effort.minds.original_random = true,
                 "--no-video" => generation.videos = false,
                 _ => generation.set(word, words.next()?)?,
             }

@@ -60,10 +60,10 @@ impl Player {
         let [beliefs, searches] = &mut self.random;
         let agent = match self.agent.take().zip(self.last) {
             Some((mut agent, action)) => {
-                agent.perceive(action, &observation, beliefs);
+                agent.perceive(action, &observation, &[], beliefs);
                 agent
             }
-            None => Agent::new(&self.scene, &self.parameters, &observation, beliefs).ok()?,
+            None => Agent::new(&self.scene, &self.parameters, &observation, None, beliefs).ok()?,
         };
         let (action, _) = self.agent.insert(agent).decide(searches).ok()?;
         self.last = Some(action);

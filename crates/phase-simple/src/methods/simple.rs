@@ -2,14 +2,14 @@
 
 use super::variants::{VARIANTS, Variant};
 use crate::{
-    Cues, ForecastSettings, Guidance, Guide, ImaginedAgents, Inference, InferenceSettings, MindPosterior,
-    Models, ModelsError, Observer, ObserverError, PreparedEvent, futures, infer,
+    AlternativeAgents, Cues, ForecastSettings, Guidance, Guide, ImaginedAgents, Inference, InferenceSettings,
+    MindPosterior, Models, ModelsError, Observer, ObserverError, PreparedEvent, futures, infer,
 };
 use core::ops::ControlFlow;
 use phase_event::{
     Forecaster, MethodError, MethodResult, ObservedEvent, Prediction, ProgressCallback, Recogniser, SAMPLES,
 };
-use phase_minds::MindKind;
+use phase_minds::{MindKind, Recorder};
 use phase_model::Judgement;
 use phase_pomcp::PomcpError;
 use serde_json::{Value, json};
@@ -85,21 +85,28 @@ impl Simple {
     }
 
     /// SIMPLE with minds of one kind in all its simulations, or the kind that it has if none is given.
-    /// `one_way_turns` makes their turns go one way.
+    /// `recorder` adds defects to their bodies, and `original_random` gives published minds the random numbers
+    /// of the original.
     #[must_use]
-    pub fn with_minds(mut self, kind: Option<MindKind>, one_way_turns: bool) -> Self {
+    pub fn with_minds(mut self, kind: Option<MindKind>, recorder: Recorder, original_random: bool) -> Self {
         if let Some(kind) = kind {
             // The weights of an average over kinds are not those of one kind alone.
             let alone = InferenceSettings::default();
             let settings = if self.settings.alternative.is_some() { alone } else { self.settings };
             let agents = self.settings.agents;
-            let one_kind = ImaginedAgents { one_way_turns: agents.one_way_turns, ..ImaginedAgents::of(kind) };
+            let one_kind = agents.with_minds(ImaginedAgents::of(kind).minds);
             self.settings = settings.with_agents(one_kind);
             if !agents.minds.foresees_collisions() {
                 self.settings = self.settings.without_collisions();
             }
         }
-        self.settings.agents.one_way_turns |= one_way_turns;
+        let agents = &mut self.settings.agents;
+        agents.one_way_turns |= recorder.one_way_turns;
+        agents.strongest_coasts |= recorder.strongest_coasts;
+        agents.minds = agents.minds.as_recorded(original_random, agents.strongest_coasts);
+        if let Some(AlternativeAgents { agents, .. }) = &mut self.settings.alternative {
+            agents.minds = agents.minds.as_recorded(original_random, agents.strongest_coasts);
+        }
         self
     }
 

@@ -151,6 +151,7 @@ impl Measurement {
             max_steps: steps,
             min_steps: steps,
             one_way_turns: self.open_loop.one_way_turns,
+            strongest_coasts: self.open_loop.strongest_coasts,
             minds: self.open_loop.minds,
             ..SimulationSettings::default()
         };

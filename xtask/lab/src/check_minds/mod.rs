@@ -82,8 +82,9 @@ fn retain(recordings: &mut Vec<Recording>, ids: &[String], file: &Path) -> Resul
     Ok(())
 }
 
-/// The agents that were asked for. Those of recordings with published minds have bodies that turn one way, as
-/// those of the recorder did; events that were simulated here had others.
+/// The agents that were asked for. Those of recordings with published minds have bodies that turn one way and
+/// coast when the strongest mean to stop, as those of the recorder did; events that were simulated here had
+/// others.
 fn agents(
     arguments: &CheckMinds,
     given: Option<MindParameters>,
@@ -96,7 +97,9 @@ fn agents(
         return Err(RunError::Usage(format!("--minds {asked}: the parameters are those of {found} minds")));
     }
     let recorded = recordings.iter().all(|recording| recording.simulation.is_none());
-    Ok(ImaginedAgents { one_way_turns: minds.kind() == MindKind::Published && recorded, minds })
+    let as_recorded = minds.kind() == MindKind::Published && recorded;
+    let minds = minds.as_recorded(arguments.original_random, as_recorded);
+    Ok(ImaginedAgents { one_way_turns: as_recorded, strongest_coasts: as_recorded, minds })
 }
 
 /// The measurement of such agents.

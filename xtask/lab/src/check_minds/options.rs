@@ -21,6 +21,10 @@ pub struct CheckMinds {
     /// The minds: `phase`, or `published`, those of the published simulator [default: phase]
     #[arg(long, value_name = "MINDS", hide_possible_values = true, value_parser = mind_kinds())]
     pub minds: Option<MindKind>,
+    /// Published minds draw the random numbers of the original, which repeat in every search; as it searched
+    /// once with 1000 simulations, so should they
+    #[arg(long)]
+    pub original_random: bool,
     /// JSON file of parameters of the minds, of which all that are absent have their defaults; it does not
     /// say how many simulations there are
     #[arg(long, value_name = "FILE")]
