@@ -31,7 +31,8 @@ pub fn create_folder(path: &Path) -> io::Result<()> {
     builder.create(path)
 }
 
-/// Creates a folder as [`create_folder`] does; one that exists becomes its owner's alone, with the files in it.
+/// Creates a folder as [`create_folder`] does; one that exists becomes its owner's alone, with the files in
+/// it.
 ///
 /// # Errors
 /// If it cannot be created, read or given these rights.

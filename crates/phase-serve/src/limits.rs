@@ -72,7 +72,7 @@ impl PerAddress {
     }
 }
 
-/// What stands for the address of a client: one that has a network of IPv6 to itself has one place, not as
+/// The address by which a client is counted: one that has a network of IPv6 to itself has one place, not as
 /// many as there are addresses in it.
 pub(crate) fn network(address: IpAddr) -> IpAddr {
     match address.to_canonical() {
@@ -84,7 +84,7 @@ pub(crate) fn network(address: IpAddr) -> IpAddr {
     }
 }
 
-/// How many things each address does at the same time.
+/// Counts the things that each address does at the same time.
 #[derive(Debug)]
 pub(crate) struct AtOnce {
     most: usize,

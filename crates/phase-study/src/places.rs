@@ -1,5 +1,5 @@
-//! Places of a study that are taken: how many raters each video has, kept up to date with every step of a rater,
-//! so that nobody waits for the study to be counted.
+//! Places of a study that are taken: how many raters each video has, kept up to date with every step of a
+//! rater, so that nobody waits for the study to be counted.
 
 use crate::{
     config::StudyConfig,
@@ -14,7 +14,7 @@ pub(crate) struct Places {
     indices: HashMap<String, usize>,
     /// By stimulus, raters that count.
     complete: Vec<u32>,
-    /// How many raters count.
+    /// Number of raters that count.
     count: u32,
     /// Those that may yet: stimuli by the time of the last sign and the number of the rater.
     unfinished: BTreeMap<(Millis, u64), Vec<usize>>,
@@ -106,8 +106,8 @@ mod tests {
         StudyConfig::read(config.to_string().as_bytes(), &forms).expect("valid")
     }
 
-    /// A rater who was last seen at a time: has answered so many of its trials, the catch trial as it should or
-    /// not, and may have left.
+    /// A rater who was last seen at a time: has answered so many of its trials, the catch trial as it should
+    /// or not, and may have left.
     fn rater(number: u64, at: Millis, answered: usize, passes: bool, left: bool) -> Rater {
         let relation = if passes { "neutral" } else { "friendly" };
         let questions = Forms::included().expect("forms").questions(Form::Relation, 2);
@@ -154,7 +154,9 @@ mod tests {
     proptest! {
         #[test]
         fn it_is_always_what_counting_would_give(
-            steps in prop::collection::vec((0_u64..6, 0_i64..50, 0_usize..4, any::<bool>(), any::<bool>()), 0..60),
+            steps in prop::collection::vec(
+                (0_u64..6, 0_i64..50, 0_usize..4, any::<bool>(), any::<bool>()), 0..60
+            ),
             since in 0_i64..60,
         ) {
             let config = config();

@@ -35,7 +35,7 @@ struct Seat {
     connected: bool,
     away: bool,
     ready: bool,
-    /// What its page was told last.
+    /// The last state that its page was told.
     told: Option<Told>,
     controls: Controls,
 }
@@ -168,13 +168,6 @@ impl Room {
             Phase::Gathering | Phase::Reading | Phase::Paused => None,
         };
         [next, self.given_up()].into_iter().flatten().min()
-    }
-
-    /// Time at which the game is given up if nobody comes.
-    fn given_up(&self) -> Option<Duration> {
-        let gathering = self.phase == Phase::Gathering;
-        let patience = if gathering { self.settings.lobby_patience } else { self.settings.patience };
-        self.absent_since.map(|since| since + patience)
     }
 
     /// Whether a mind has to decide before the next step is due: [`think`](Self::think) takes some time.

@@ -10,6 +10,13 @@ impl Room {
         self.seats.map(|seat| seat.connected && !seat.away)
     }
 
+    /// Time at which the game is given up if nobody comes.
+    pub(super) fn given_up(&self) -> Option<Duration> {
+        let gathering = self.phase == Phase::Gathering;
+        let patience = if gathering { self.settings.lobby_patience } else { self.settings.patience };
+        self.absent_since.map(|since| since + patience)
+    }
+
     pub(super) fn presence_changed(&mut self, now: Duration) {
         let all = self.present() == [true; AGENT_COUNT];
         if all {

@@ -10,7 +10,7 @@ use phase_event::{Controller, Recording};
 use phase_model::{AGENT_COUNT, AgentId, State};
 use serde_json::Value;
 
-/// What a page knows of the activity of a game.
+/// The activity of a game as a page knows it.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(super) struct Told {
     doing: Doing,

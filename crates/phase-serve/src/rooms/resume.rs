@@ -116,7 +116,8 @@ fn look(rooms: &Arc<Rooms>, path: &Path) -> Result<Option<Open>, ResumeError> {
     Ok(Some(Open { path: path.to_owned(), entries, text, listed }))
 }
 
-/// Recordings become files beside those of all other games: each has a name of its own, with that of its room.
+/// Checks names of recordings, which become files beside those of all other games: each has a name of its
+/// own, with that of its room.
 fn check_recordings(room: &str, rounds: &[Round]) -> Result<(), ResumeError> {
     let mut names = BTreeSet::new();
     for Round { id, .. } in rounds.iter().skip(1) {

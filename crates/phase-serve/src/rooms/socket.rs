@@ -21,9 +21,9 @@ use tokio::{
 
 /// Largest message of a player (bytes).
 pub(super) const LARGEST_MESSAGE: usize = 512;
-/// What is read and written at once (bytes).
+/// Size of a piece that is read or written (bytes).
 pub(super) const BUFFER: usize = 4 * 1024;
-/// What may wait to be taken by a page (bytes): some steps.
+/// Most that may wait to be taken by a page (bytes): some steps.
 pub(super) const LARGEST_BACKLOG: usize = 256 * 1024;
 /// Messages that wait for a player at most: some seconds of a game.
 const OUTBOX: usize = 64;
@@ -113,8 +113,8 @@ pub(super) async fn play(rooms: Arc<Rooms>, mut socket: WebSocket, stranger: Gue
     loop {
         let command = tokio::select! {
             message = outbox.recv() => {
-                // The room drops its end when another page of the same player has come, when this one does not
-                // keep up, and when the game is over.
+                // The room drops its end when another page of the same player has come, when this one does
+                // not keep up, and when the game is over.
                 let Some(text) = message else {
                     if replaced.load(Ordering::Relaxed) {
                         let reason = Utf8Bytes::from_static("the player has come by another connection");

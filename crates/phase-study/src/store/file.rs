@@ -121,8 +121,8 @@ fn beside(path: &Path, ending: &str) -> PathBuf {
     name.into()
 }
 
-/// The log of a file, if it has one of which nothing is there. A file that cannot be read is not known to have
-/// one; whoever opens it says why.
+/// The log of a file, if it has one of which nothing is there. A file that cannot be read is not known to
+/// have one; whoever opens it says why.
 fn missing_log(path: &Path) -> Option<PathBuf> {
     let mut head = Vec::new();
     File::open(path).and_then(|file| file.take(20).read_to_end(&mut head)).ok()?;

@@ -45,7 +45,7 @@ CREATE TABLE answer (rater INTEGER NOT NULL, number INTEGER NOT NULL, at INTEGER
 CREATE TABLE departure (rater INTEGER PRIMARY KEY REFERENCES rater, at INTEGER NOT NULL, kind TEXT NOT NULL) STRICT;
 ";
 
-/// What only the server knows of a study; files of earlier versions have none.
+/// Random bytes that only the server knows; files of earlier versions have none.
 const SECRET: &str = "
 CREATE TABLE IF NOT EXISTS secret (bytes BLOB NOT NULL) STRICT;
 INSERT INTO secret SELECT randomblob(16) WHERE NOT EXISTS (SELECT 1 FROM secret);

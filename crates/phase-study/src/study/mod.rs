@@ -131,7 +131,7 @@ impl Study {
     }
 
     /// Lets somebody in. `parameters` are the members of the address with which it came; those that the study
-    /// does not keep are ignored. It is known by `token` from then on, and nothing is stored before it agrees.
+    /// does not keep are ignored. It is known by `token` from then on; nothing is stored before it agrees.
     ///
     /// # Errors
     /// [`StudyError::Field`] if a member of the address is missing, too long or not a line of text.
