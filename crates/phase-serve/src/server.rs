@@ -38,13 +38,24 @@ const PATIENCE: Duration = Duration::from_secs(5);
 /// A server that listens.
 pub struct Server {
     app: App,
-    runtime: Runtime,
+    runtime: Background,
     listener: tokio::net::TcpListener,
     address: SocketAddr,
     admin: String,
     stop: watch::Sender<bool>,
     // Held while it serves.
     lock: Lock,
+}
+
+/// A runtime that ends without waiting: a game that is being replayed is replayed again some day.
+struct Background(Option<Runtime>);
+
+impl Drop for Background {
+    fn drop(&mut self) {
+        if let Some(runtime) = self.0.take() {
+            runtime.shutdown_background();
+        }
+    }
 }
 
 impl core::fmt::Debug for Server {
@@ -91,6 +102,7 @@ impl Server {
             settings,
         };
         drop(_entered);
+        let runtime = Background(Some(runtime));
         Ok(Self { app, runtime, listener, address, admin, stop, lock })
     }
 
@@ -127,7 +139,9 @@ impl Server {
     /// # Errors
     /// [`ServeError::Runtime`].
     pub fn run(self, until: impl Future<Output = ()> + Send + 'static) -> Result<(), ServeError> {
-        let Self { app, runtime, listener, stop, lock: _lock, .. } = self;
+        let Self { app, mut runtime, listener, stop, lock: _lock, .. } = self;
+        // It is there until it is taken here.
+        let Some(runtime) = runtime.0.take() else { return Ok(()) };
         let behind_proxy = app.settings.behind_proxy;
         let router = router(Arc::new(app));
         runtime.block_on(async move {

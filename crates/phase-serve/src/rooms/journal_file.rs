@@ -6,6 +6,7 @@ use std::{
     fs::{self, File, OpenOptions},
     io::{self, Write as _},
     path::{Path, PathBuf},
+    sync::Arc,
 };
 
 /// A journal that is being written.
@@ -16,7 +17,7 @@ use std::{
 #[derive(Debug)]
 pub(super) struct JournalFile {
     path: PathBuf,
-    file: File,
+    file: Arc<File>,
 }
 
 impl JournalFile {
@@ -30,7 +31,7 @@ impl JournalFile {
         let path = Self::path(folder, room);
         let opened = private::options().append(true).create_new(true).open(&path);
         match opened {
-            Ok(file) => Ok(Self { path, file }),
+            Ok(file) => Ok(Self { path, file: Arc::new(file) }),
             Err(source) => Err(WriteError { path, action: "create", source }),
         }
     }
@@ -41,20 +42,22 @@ impl JournalFile {
         let file = OpenOptions::new().append(true).open(path).map_err(failed)?;
         let whole = text.rfind('\n').map_or(0, |end| end + 1);
         file.set_len(whole as u64).map_err(failed)?;
-        Ok(Self { path: path.to_owned(), file })
+        Ok(Self { path: path.to_owned(), file: Arc::new(file) })
     }
 
-    /// Appends an entry.
-    pub(super) fn append(&mut self, entry: &Entry) -> Result<(), WriteError> {
-        let written = serde_json::to_vec(entry).map_err(io::Error::from).and_then(|mut line| {
-            line.push(b'\n');
-            self.file.write_all(&line)?;
-            match entry {
-                Entry::Step { .. } | Entry::Began { .. } => Ok(()),
-                _ => self.file.sync_data(),
-            }
-        });
-        written.map_err(|source| WriteError { path: self.path.clone(), action: "append to", source })
+    /// Appends an entry. Only this game waits for the disk.
+    pub(super) async fn append(&mut self, entry: &Entry) -> Result<(), WriteError> {
+        let failed = |source| WriteError { path: self.path.clone(), action: "append to", source };
+        let mut line = serde_json::to_vec(entry).map_err(|error| failed(error.into()))?;
+        line.push(b'\n');
+        // Some bytes into the page cache, which takes microseconds.
+        (&*self.file).write_all(&line).map_err(failed)?;
+        if matches!(entry, Entry::Step { .. } | Entry::Began { .. }) {
+            return Ok(());
+        }
+        let file = Arc::clone(&self.file);
+        let synced = tokio::task::spawn_blocking(move || file.sync_data()).await;
+        synced.map_err(io::Error::other).and_then(|synced| synced).map_err(failed)
     }
 }
 

@@ -186,11 +186,18 @@ impl Rooms {
         let listed =
             self.list(&name, &keys, wish.players, wish.opener, |table| self.has_room(table, wish))?;
         let game = GameSettings { players: wish.players, view: wish.view, ..self.settings.game };
-        let room = Room::open(&name, keys, game, self.rounds(&name), Duration::ZERO)
-            .map_err(|error| ApiError::failed(&error))?;
-        let mut journal =
-            JournalFile::create(&self.journals(), &name).map_err(|error| ApiError::failed(&error))?;
-        task::begin(&mut journal, &room).map_err(|error| ApiError::failed(&error))?;
+        let (rounds, folder, named) = (self.rounds(&name), self.journals(), name.clone());
+        // A world and a file take milliseconds, in which no step of others is to wait.
+        let prepare = move || {
+            let room = Room::open(&named, keys, game, rounds, Duration::ZERO)
+                .map_err(|error| ApiError::failed(&error))?;
+            let journal = JournalFile::create(&folder, &named).map_err(|error| ApiError::failed(&error))?;
+            Ok::<_, ApiError>((room, journal))
+        };
+        let prepared = tokio::task::spawn_blocking(prepare).await;
+        let (room, mut journal) = prepared.map_err(|error| ApiError::failed(&error))??;
+        let opening = room.opening();
+        journal.append(&opening).await.map_err(|error| ApiError::failed(&error))?;
         let unvisited = wish.opener.is_some().then_some(UNVISITED);
         self.start(listed, room, journal, Vec::new(), unvisited);
         Ok(Opened { name, tokens })

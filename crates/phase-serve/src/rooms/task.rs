@@ -5,7 +5,7 @@ use crate::log;
 use axum::extract::ws::Utf8Bytes;
 use phase_event::Recording;
 use phase_files::{WriteError, atomic};
-use phase_game::{Doing, Effect, Ending, Entry, FromPlayer, Room, RoomError, ToPlayer};
+use phase_game::{Doing, Effect, Ending, FromPlayer, Room, RoomError, ToPlayer};
 use phase_model::{AGENT_COUNT, AgentId};
 use std::{
     path::PathBuf,
@@ -176,8 +176,7 @@ impl Task {
     async fn carry_out(&mut self, effects: Vec<Effect>, seats: &mut Lines) -> Result<(), WriteError> {
         for effect in effects {
             match effect {
-                // Some bytes into the page cache, which takes microseconds.
-                Effect::Journal(entry) => self.journal.append(&entry)?,
+                Effect::Journal(entry) => self.journal.append(&entry).await?,
                 Effect::Send(agent, message) => send(seats, agent, &message),
                 Effect::Finished(recording) => save(self.events.clone(), recording).await?,
                 Effect::Failed(source) => {
@@ -226,10 +225,4 @@ async fn save(folder: PathBuf, recording: Box<Recording>) -> Result<(), WriteErr
         Ok(written) => written,
         Err(error) => std::panic::resume_unwind(Box::new(error.to_string())),
     }
-}
-
-/// The first entry of a new room's journal.
-pub(super) fn begin(journal: &mut JournalFile, room: &Room) -> Result<(), WriteError> {
-    let opening: Entry = room.opening();
-    journal.append(&opening)
 }

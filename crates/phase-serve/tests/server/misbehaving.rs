@@ -237,6 +237,10 @@ fn the_past_does_not_delay_the_start() {
         fs::write(given.folder.join(format!("rooms/{name}.jsonl")), text).expect("written");
     }
     let begun = Instant::now();
+    // Nor does an end, for example because of a mistake in a study.
+    let scene = phase_sampler::sample_named(Some("independent"), None, 1).expect("a scene");
+    let item = phase_game::playlist::Item { source: "one".into(), scene };
+    drop(phase_serve::Server::bind(given.clone(), item.clone(), vec![item], None).expect("it starts"));
     let server = Running::start(given);
     assert_eq!(server.get("/").status, 200);
     assert_eq!(server.open("human").len(), 2);

@@ -140,7 +140,7 @@ for (const form of Object.keys(ANSWERS)) {
   });
 }
 
-test("a reload goes on in the middle, and so does another browser with the same address", async () => {
+test("a reload goes on in the middle, and so does another tab; another browser with the same address is somebody else", async () => {
   const page = await visit("relation", "reload");
   await begin(page, "relation");
   await watch(page);
@@ -151,9 +151,14 @@ test("a reload goes on in the middle, and so does another browser with the same 
   await title(page, "Animation 2 of 3");
   await press(page, "Continue");
   await page.getByRole("alert").getByText("Please answer").waitFor();
-  const other = await visit("relation", "reload");
+  const stranger = await visit("relation", "reload");
+  await title(stranger, "What");
+  await stranger.context().close();
+  const other = await page.context().newPage();
+  listen(other, complaints);
+  await other.goto(page.url());
   await title(other, "Animation 2 of 3");
-  // The same trial answered otherwise in the other browser: the first answer stays, and both go on.
+  // The same trial answered otherwise in the other tab: the first answer stays, and both go on.
   await watch(page);
   await watch(other);
   await ANSWERS.relation(page);
@@ -167,7 +172,6 @@ test("a reload goes on in the middle, and so does another browser with the same 
   // A browser complains of a refusal, though the page knows what to do.
   assert.match(complaints.splice(before).join(), /^[^,]*409[^,]*$/);
   await page.context().close();
-  await other.context().close();
 });
 
 test("an answer waits for a server that is gone", async () => {
