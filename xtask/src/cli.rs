@@ -9,24 +9,15 @@ use crate::{
     tidy::{self, Tidy},
     wasm,
 };
-use clap::{Parser, Subcommand};
+use clap::Subcommand;
 use phase_cli::{
-    context::{Context, Verbosity},
+    context::Context,
     playground::{self, Playground},
-    program::Interface,
+    program::{CommandLine, Interface},
 };
 
-/// The commands of phase, and the development commands of this workspace
-#[derive(Parser, Debug)]
-#[command(version)]
-pub struct Cli {
-    /// The command.
-    #[command(subcommand)]
-    pub command: Command,
-    /// Verbosity.
-    #[command(flatten)]
-    pub verbosity: Verbosity,
-}
+/// The command line.
+pub type Cli = CommandLine<Command>;
 
 /// A command of `cargo xtask`.
 #[derive(Subcommand, Debug)]
@@ -47,16 +38,14 @@ pub enum Command {
     Tidy(Tidy),
 }
 
-impl Interface for Cli {
+impl Interface for Command {
     type Error = XtaskError;
 
-    fn verbosity(&self) -> Verbosity {
-        self.verbosity
-    }
+    const ABOUT: &'static str = "The commands of phase, and the development commands of this workspace";
 
     fn run(&self, context: &Context) -> Result<(), XtaskError> {
-        match &self.command {
-            Command::Phase(command) => match &**command {
+        match self {
+            Self::Phase(command) => match &**command {
                 // The source can build what an installed program includes.
                 phase_cli::cli::Command::Playground(Playground { out, wasm: None }) => {
                     let wasm = Some(wasm::build(context)?);
@@ -64,11 +53,11 @@ impl Interface for Cli {
                 }
                 command => Ok(command.run(context)?),
             },
-            Command::Elsewhere(line) => line.run(self.verbosity),
-            Command::Book(options) => book::run(options),
-            Command::Leaderboard(options) => leaderboard::run(options, context),
-            Command::Results(options) => results::run(options),
-            Command::Tidy(options) => tidy::run(options),
+            Self::Elsewhere(line) => line.run(context.verbosity),
+            Self::Book(options) => book::run(options),
+            Self::Leaderboard(options) => leaderboard::run(options, context),
+            Self::Results(options) => results::run(options),
+            Self::Tidy(options) => tidy::run(options),
         }
     }
 }

@@ -6,7 +6,10 @@
 
 use crate::{error::XtaskError, results};
 use clap::{Args, Parser};
-use phase_cli::{cli::Cli, console::print_message, context::Context, error::CliError, output::print_result};
+use phase_cli::{
+    cli::Cli, console::print_message, context::Context, error::CliError, output::print_result,
+    program::Interface,
+};
 use phase_eval::{
     Estimate,
     benchmark::{Benchmark, GENERATED, PAIRS, RECORDED},

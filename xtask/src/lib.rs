@@ -29,5 +29,5 @@ use std::{ffi::OsString, process::ExitCode};
 
 /// Runs a command line, program name first, and returns its exit code.
 pub fn main_with(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
-    program::main_with::<cli::Cli>(CARGO_XTASK, packages::with_help(arguments))
+    program::main_with::<cli::Command>(CARGO_XTASK, packages::with_help(arguments))
 }

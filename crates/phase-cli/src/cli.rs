@@ -3,7 +3,7 @@
 use crate::{
     benchmark::{self, options::Benchmark},
     completions::{self, Completions},
-    context::{Context, Verbosity},
+    context::Context,
     error::CliError,
     eval::{self, options::Eval},
     export::{self, Export},
@@ -14,7 +14,7 @@ use crate::{
     man::{self, ManPages},
     new_scene::{self, options::NewScene},
     playground::{self, Playground},
-    program::Interface,
+    program::{CommandLine, Interface},
     render::{self, options::Render},
     serve::{self, options::Serve},
     simulate::{self, options::Simulate},
@@ -24,19 +24,10 @@ use crate::{
     train::{self, options::Train},
     verify::{self, options::Verify},
 };
-use clap::{Parser, Subcommand};
+use clap::Subcommand;
 
-/// Physically grounded social events: two agents see, believe, plan and act
-#[derive(Parser, Debug)]
-#[command(name = "phase", version)]
-pub struct Cli {
-    /// Command to carry out.
-    #[command(subcommand)]
-    pub command: Command,
-    /// Verbosity.
-    #[command(flatten)]
-    pub verbosity: Verbosity,
-}
+/// The command line.
+pub type Cli = CommandLine<Command>;
 
 /// Command to carry out.
 #[derive(Subcommand, Debug)]
@@ -80,24 +71,12 @@ pub enum Command {
     Man(ManPages),
 }
 
-impl Interface for Cli {
+impl Interface for Command {
     type Error = CliError;
 
-    fn verbosity(&self) -> Verbosity {
-        self.verbosity
-    }
+    const ABOUT: &'static str = "Physically grounded social events: two agents see, believe, plan and act";
 
     fn run(&self, context: &Context) -> Result<(), CliError> {
-        self.command.run(context)
-    }
-}
-
-impl Command {
-    /// Runs the command.
-    ///
-    /// # Errors
-    /// Any [`CliError`].
-    pub fn run(&self, context: &Context) -> Result<(), CliError> {
         match self {
             Self::NewScene(arguments) => new_scene::run(arguments, context),
             Self::GenDataset(arguments) => gen_dataset::run(arguments, context),

@@ -96,5 +96,5 @@ pub const CARGO_XTASK: Program = Program {
 
 /// Runs a command line of `phase`, program name first, and returns its exit code.
 pub fn main_with(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
-    program::main_with::<cli::Cli>(PHASE, arguments)
+    program::main_with::<cli::Command>(PHASE, arguments)
 }

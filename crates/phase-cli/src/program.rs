@@ -4,23 +4,35 @@ use crate::{
     console::{Unprinted, print_message},
     context::{Context, Program, Verbosity},
 };
-use clap::{Parser, error::ErrorKind};
+use clap::{CommandFactory, FromArgMatches, Parser, Subcommand, error::ErrorKind};
 use phase_model::foreign;
 use std::{error::Error, ffi::OsString, process::ExitCode};
 
 /// The commands of a program.
-pub trait Interface: Parser {
+pub trait Interface: Subcommand {
     /// Why a command fails.
     type Error: Failure;
 
-    /// The program's verbosity.
-    fn verbosity(&self) -> Verbosity;
+    /// What the program is, in a line.
+    const ABOUT: &'static str;
 
-    /// Runs the command that was parsed.
+    /// Runs the command.
     ///
     /// # Errors
     /// If it fails.
     fn run(&self, context: &Context) -> Result<(), Self::Error>;
+}
+
+/// The command line of a program.
+#[derive(Parser, Debug)]
+#[command(name = "phase", version, about = C::ABOUT)]
+pub struct CommandLine<C: Interface> {
+    /// The command.
+    #[command(subcommand)]
+    pub command: C,
+    /// Verbosity.
+    #[command(flatten)]
+    pub verbosity: Verbosity,
 }
 
 /// An error that decides the exit code of a program.
@@ -50,12 +62,12 @@ pub fn run_with<I: Interface>(
     program: Program,
     arguments: impl IntoIterator<Item = OsString>,
 ) -> Result<(), Failed> {
-    let command = I::command().name(program.name).bin_name(program.name);
+    let command = CommandLine::<I>::command().name(program.name).bin_name(program.name);
     let parsed = command.try_get_matches_from(arguments);
-    match parsed.and_then(|matches| I::from_arg_matches(&matches)) {
-        Ok(interface) => {
-            let context = Context { program, verbosity: interface.verbosity() };
-            interface.run(&context).map_err(|error| {
+    match parsed.and_then(|matches| CommandLine::<I>::from_arg_matches(&matches)) {
+        Ok(CommandLine { command, verbosity }) => {
+            let context = Context { program, verbosity };
+            command.run(&context).map_err(|error| {
                 let causes = if context.verbosity.verbose { causes(&error) } else { Vec::new() };
                 let exit_code = error.exit_code();
                 let sentence = foreign::message(&error.to_string()).into_owned();

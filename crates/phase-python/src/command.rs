@@ -1,7 +1,7 @@
 //! The command line from within Python.
 
 use crate::error::raise;
-use phase_cli::{PHASE, cli::Cli, interrupt::leave_to_host, program};
+use phase_cli::{PHASE, cli::Command, interrupt::leave_to_host, program};
 use phase_runs::interrupt;
 use pyo3::prelude::*;
 use std::{ffi::OsString, thread, time::Duration};
@@ -15,7 +15,7 @@ const POLL: Duration = Duration::from_millis(100);
 pub(crate) fn run(py: Python<'_>, arguments: Vec<String>) -> PyResult<()> {
     leave_to_host();
     let arguments = core::iter::once("phase".to_owned()).chain(arguments).map(OsString::from);
-    let worker = thread::spawn(move || program::run_with::<Cli>(PHASE, arguments));
+    let worker = thread::spawn(move || program::run_with::<Command>(PHASE, arguments));
     let mut interrupted = None;
     while !worker.is_finished() {
         py.detach(|| thread::sleep(POLL));

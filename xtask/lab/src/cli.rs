@@ -12,23 +12,14 @@ use crate::{
     fit_minds::{self, options::FitMinds},
     fit_reports::{self, options::FitReports},
 };
-use clap::{Parser, Subcommand};
+use clap::Subcommand;
 use phase_cli::{
-    context::{Context, Verbosity},
-    program::Interface,
+    context::Context,
+    program::{CommandLine, Interface},
 };
 
-/// Fits and checks of minds, inference, behaviour and physics
-#[derive(Parser, Debug)]
-#[command(version)]
-pub struct Cli {
-    /// The command.
-    #[command(subcommand)]
-    pub command: Command,
-    /// Verbosity.
-    #[command(flatten)]
-    pub verbosity: Verbosity,
-}
+/// The command line.
+pub type Cli = CommandLine<Command>;
 
 /// A command of the lab.
 #[derive(Subcommand, Debug)]
@@ -51,23 +42,21 @@ pub enum Command {
     FitReports(FitReports),
 }
 
-impl Interface for Cli {
+impl Interface for Command {
     type Error = LabError;
 
-    fn verbosity(&self) -> Verbosity {
-        self.verbosity
-    }
+    const ABOUT: &'static str = "Fits and checks of minds, inference, behaviour and physics";
 
     fn run(&self, context: &Context) -> Result<(), LabError> {
-        match &self.command {
-            Command::CheckPhysics(arguments) => check_physics::run(arguments, context),
-            Command::CheckBehaviour(arguments) => check_behaviour::run(arguments, context),
-            Command::DrawBehaviour(arguments) => draw_behaviour::run(arguments),
-            Command::CheckMinds(arguments) => check_minds::run(arguments, context),
-            Command::FitInference(arguments) => fit_inference::run(arguments, context),
-            Command::FitMinds(arguments) => fit_minds::run(arguments, context),
-            Command::FitForecast(arguments) => fit_forecast::run(arguments, context),
-            Command::FitReports(arguments) => fit_reports::run(arguments),
+        match self {
+            Self::CheckPhysics(arguments) => check_physics::run(arguments, context),
+            Self::CheckBehaviour(arguments) => check_behaviour::run(arguments, context),
+            Self::DrawBehaviour(arguments) => draw_behaviour::run(arguments),
+            Self::CheckMinds(arguments) => check_minds::run(arguments, context),
+            Self::FitInference(arguments) => fit_inference::run(arguments, context),
+            Self::FitMinds(arguments) => fit_minds::run(arguments, context),
+            Self::FitForecast(arguments) => fit_forecast::run(arguments, context),
+            Self::FitReports(arguments) => fit_reports::run(arguments),
         }
     }
 }

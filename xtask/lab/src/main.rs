@@ -4,9 +4,9 @@
 #![deny(missing_docs)]
 
 use phase_cli::{CARGO_XTASK, program};
-use phase_lab::cli::Cli;
+use phase_lab::cli::Command;
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    program::main_with::<Cli>(CARGO_XTASK, std::env::args_os())
+    program::main_with::<Command>(CARGO_XTASK, std::env::args_os())
 }

@@ -5,23 +5,14 @@ use crate::{
     error::TortureError,
     torture::{self, Torture},
 };
-use clap::{Parser, Subcommand};
+use clap::Subcommand;
 use phase_cli::{
-    context::{Context, Verbosity},
-    program::Interface,
+    context::Context,
+    program::{CommandLine, Interface},
 };
 
-/// Tests of promises about files
-#[derive(Parser, Debug)]
-#[command(version)]
-pub struct Cli {
-    /// The command.
-    #[command(subcommand)]
-    pub command: Command,
-    /// Verbosity.
-    #[command(flatten)]
-    pub verbosity: Verbosity,
-}
+/// The command line.
+pub type Cli = CommandLine<Command>;
 
 /// A command that tests, or one that is tested.
 #[derive(Subcommand, Debug)]
@@ -35,18 +26,16 @@ pub enum Command {
     Torture(Torture),
 }
 
-impl Interface for Cli {
+impl Interface for Command {
     type Error = TortureError;
 
-    fn verbosity(&self) -> Verbosity {
-        self.verbosity
-    }
+    const ABOUT: &'static str = "Tests of promises about files";
 
     fn run(&self, context: &Context) -> Result<(), TortureError> {
-        match &self.command {
-            Command::Phase(command) => Ok(command.run(context)?),
-            Command::CheckVerify(arguments) => check_verify::run(arguments, context),
-            Command::Torture(arguments) => torture::run(arguments, context),
+        match self {
+            Self::Phase(command) => Ok(command.run(context)?),
+            Self::CheckVerify(arguments) => check_verify::run(arguments, context),
+            Self::Torture(arguments) => torture::run(arguments, context),
         }
     }
 }

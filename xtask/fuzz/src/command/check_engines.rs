@@ -6,7 +6,7 @@ use phase_cli::{context::Context, error::CliError, output::print_result};
 
 /// Options of `check-engines`.
 #[derive(Args, Debug)]
-pub(super) struct CheckEngines {
+pub struct CheckEngines {
     /// Scenes of each kind
     #[arg(long, value_name = "N", default_value = "1000")]
     scenes: u32,

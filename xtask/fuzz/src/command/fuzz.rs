@@ -25,7 +25,7 @@ const CORPUS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/corpus");
 
 /// Options of `fuzz`.
 #[derive(Args, Debug)]
-pub(super) struct Fuzz {
+pub struct Fuzz {
     /// Time for each target (s)
     #[arg(long, value_name = "N", default_value_t = 10,
         value_parser = value_parser!(u64).range(1..=1_000_000))]

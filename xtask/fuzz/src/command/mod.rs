@@ -4,31 +4,22 @@ mod check_engines;
 mod fuzz;
 
 use check_engines::CheckEngines;
-use clap::{Parser, Subcommand};
+use clap::Subcommand;
 use fuzz::Fuzz;
 use phase_cli::{
-    context::{Context, Verbosity},
+    context::Context,
     error::CliError,
-    program::{self, Interface},
+    program::{self, CommandLine, Interface},
 };
 use std::{io, path::PathBuf};
 use thiserror::Error;
 
-/// Fuzzing, and both engines in random scenes
-#[derive(Parser, Debug)]
-#[command(version)]
-pub struct Cli {
-    /// The command.
-    #[command(subcommand)]
-    command: Command,
-    /// Verbosity.
-    #[command(flatten)]
-    verbosity: Verbosity,
-}
+/// The command line.
+pub type Cli = CommandLine<Command>;
 
 /// A command that fuzzes.
 #[derive(Subcommand, Debug)]
-enum Command {
+pub enum Command {
     /// Look for energy from nowhere, overlaps and other oddities of both engines in random scenes
     CheckEngines(CheckEngines),
     /// Run readers, engines, planner and searches on mutated inputs
@@ -70,17 +61,15 @@ impl program::Failure for FuzzError {
     }
 }
 
-impl Interface for Cli {
+impl Interface for Command {
     type Error = FuzzError;
 
-    fn verbosity(&self) -> Verbosity {
-        self.verbosity
-    }
+    const ABOUT: &'static str = "Fuzzing, and both engines in random scenes";
 
     fn run(&self, context: &Context) -> Result<(), FuzzError> {
-        match &self.command {
-            Command::CheckEngines(arguments) => Ok(check_engines::run(arguments, context)?),
-            Command::Fuzz(arguments) => fuzz::run(arguments, context),
+        match self {
+            Self::CheckEngines(arguments) => Ok(check_engines::run(arguments, context)?),
+            Self::Fuzz(arguments) => fuzz::run(arguments, context),
         }
     }
 }

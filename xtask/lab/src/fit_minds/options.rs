@@ -52,5 +52,5 @@ pub struct FitMinds {
 
 /// Reads the name of a parameter.
 fn names() -> PossibleValuesParser {
-    PossibleValuesParser::new(PARAMETERS.each_ref().map(|it| it.name))
+    PossibleValuesParser::new(PARAMETERS.iter().map(|it| it.name))
 }

@@ -41,240 +41,55 @@ const RATIO_LIMIT: f64 = 1000.0;
 /// Significant digits of every value that is tried; more would not be meant.
 const DIGITS: i32 = 3;
 
-/// All fitted parameters, in the order in which they are changed.
-pub(super) const PARAMETERS: [Parameter; 33] = [
-    Parameter {
-        name: "heuristic_prior",
-        neutral: 1.0,
-        domain: Domain::Ratio,
-        get: |it| it.heuristic_prior,
-        set: |it, value| it.heuristic_prior = value,
-    },
-    Parameter {
-        name: "momentum_prior",
-        neutral: 1.0,
-        domain: Domain::Ratio,
-        get: |it| it.momentum_prior,
-        set: |it, value| it.momentum_prior = value,
-    },
-    Parameter {
-        name: "lateral_prior",
-        neutral: 1.0,
-        domain: Domain::Ratio,
-        get: |it| it.lateral_prior,
-        set: |it, value| it.lateral_prior = value,
-    },
-    Parameter {
-        name: "rest_prior",
-        neutral: 1.0,
-        domain: Domain::Ratio,
-        get: |it| it.rest_prior,
-        set: |it, value| it.rest_prior = value,
-    },
-    Parameter {
-        name: "rest_distance",
-        neutral: 0.0,
-        domain: Domain::Amount { unit: 0.5, limit: 30.0 },
-        get: |it| it.rest_distance.into(),
-        set: |it, value| it.rest_distance = value as f32,
-    },
-    Parameter {
-        name: "moving_speed",
-        neutral: 0.0,
-        domain: Domain::Amount { unit: 0.5, limit: 20.0 },
-        get: |it| it.moving_speed.into(),
-        set: |it, value| it.moving_speed = value as f32,
-    },
-    Parameter {
-        name: "horizon_steps",
-        neutral: 0.0,
-        domain: Domain::Amount { unit: 2.0, limit: 100.0 },
-        get: |it| it.horizon_steps,
-        set: |it, value| it.horizon_steps = value,
-    },
-    Parameter {
-        name: "other_initiative",
-        neutral: 0.0,
-        domain: Domain::Share,
-        get: |it| it.other_initiative,
-        set: |it, value| it.other_initiative = value,
-    },
-    Parameter {
-        name: "agreement",
-        neutral: 0.0,
-        domain: Domain::Amount { unit: 0.5, limit: 30.0 },
-        get: |it| it.agreement.into(),
-        set: |it, value| it.agreement = value as f32,
-    },
-    Parameter {
-        name: "colocation",
-        neutral: 30.0,
-        domain: Domain::Amount { unit: 0.5, limit: 30.0 },
-        get: |it| it.colocation.into(),
-        set: |it, value| it.colocation = value as f32,
-    },
-    Parameter {
-        name: "look_ahead",
-        neutral: 0.1,
-        domain: Domain::Between { low: 0.1, high: 10.0 },
-        get: |it| it.look_ahead.into(),
-        set: |it, value| it.look_ahead = value as f32,
-    },
-    Parameter {
-        name: "heading_tolerance",
-        neutral: 0.0,
-        domain: Domain::Amount { unit: 0.1, limit: 3.0 },
-        get: |it| it.heading_tolerance.into(),
-        set: |it, value| it.heading_tolerance = value as f32,
-    },
-    Parameter {
-        name: "arrival_distance",
-        neutral: 0.0,
-        domain: Domain::Amount { unit: 0.1, limit: 10.0 },
-        get: |it| it.arrival_distance.into(),
-        set: |it, value| it.arrival_distance = value as f32,
-    },
-    Parameter {
-        name: "grasp_reach",
-        neutral: 0.0,
-        domain: Domain::Share,
-        get: |it| it.grasp_reach.into(),
-        set: |it, value| it.grasp_reach = value as f32,
-    },
-    Parameter {
-        name: "waiting_widths",
-        neutral: 0.0,
-        domain: Domain::Amount { unit: 0.5, limit: 10.0 },
-        get: |it| it.waiting_widths.into(),
-        set: |it, value| it.waiting_widths = value as f32,
-    },
-    Parameter {
-        name: "interception_spacing",
-        neutral: 10.0,
-        domain: Domain::Between { low: 0.1, high: 10.0 },
-        get: |it| it.interception_spacing.into(),
-        set: |it, value| it.interception_spacing = value as f32,
-    },
-    Parameter {
-        name: "push_length",
-        neutral: 0.0,
-        domain: Domain::Amount { unit: 1.0, limit: 30.0 },
-        get: |it| it.push_length.into(),
-        set: |it, value| it.push_length = value as f32,
-    },
-    Parameter {
-        name: "post_distance",
-        neutral: 0.0,
-        domain: Domain::Amount { unit: 0.2, limit: 10.0 },
-        get: |it| it.post_distance.into(),
-        set: |it, value| it.post_distance = value as f32,
-    },
-    Parameter {
-        name: "clearance",
-        neutral: 0.0,
-        domain: Domain::Amount { unit: 0.2, limit: 10.0 },
-        get: |it| it.clearance.into(),
-        set: |it, value| it.clearance = value as f32,
-    },
-    Parameter {
-        name: "escape_length",
-        neutral: 0.0,
-        domain: Domain::Amount { unit: 1.0, limit: 30.0 },
-        get: |it| it.escape_length.into(),
-        set: |it, value| it.escape_length = value as f32,
-    },
-    Parameter {
-        name: "obstruction",
-        neutral: 0.0,
-        domain: Domain::Amount { unit: 0.5, limit: 100.0 },
-        get: |it| it.obstruction.into(),
-        set: |it, value| it.obstruction = value as f32,
-    },
-    Parameter {
-        name: "grasp",
-        neutral: 0.0,
-        domain: Domain::Amount { unit: 0.5, limit: 100.0 },
-        get: |it| it.grasp.into(),
-        set: |it, value| it.grasp = value as f32,
-    },
-    Parameter {
-        name: "turning",
-        neutral: 0.0,
-        domain: Domain::Amount { unit: 0.5, limit: 100.0 },
-        get: |it| it.turning.into(),
-        set: |it, value| it.turning = value as f32,
-    },
-    Parameter {
-        name: "impassable",
-        neutral: 10.0,
-        domain: Domain::Amount { unit: 10.0, limit: 10_000.0 },
-        get: |it| it.impassable.into(),
-        set: |it, value| it.impassable = value as f32,
-    },
-    Parameter {
-        name: "effort",
-        neutral: 0.0,
-        domain: Domain::Share,
-        get: |it| it.effort.into(),
-        set: |it, value| it.effort = value as f32,
-    },
-    Parameter {
-        name: "yielding_clearance",
-        neutral: 0.0,
-        domain: Domain::Amount { unit: 0.25, limit: 30.0 },
-        get: |it| it.yielding_clearance.into(),
-        set: |it, value| it.yielding_clearance = value as f32,
-    },
-    Parameter {
-        name: "passing_depth",
-        neutral: 0.0,
-        domain: Domain::Amount { unit: 0.5, limit: 10.0 },
-        get: |it| it.passing_depth.into(),
-        set: |it, value| it.passing_depth = value as f32,
-    },
-    Parameter {
-        name: "room_depth",
-        neutral: 0.1,
-        domain: Domain::Between { low: 0.1, high: 10.0 },
-        get: |it| it.room_depth.into(),
-        set: |it, value| it.room_depth = value as f32,
-    },
-    Parameter {
-        name: "corner",
-        neutral: 0.0,
-        domain: Domain::Amount { unit: 0.5, limit: 100.0 },
-        get: |it| it.corner.into(),
-        set: |it, value| it.corner = value as f32,
-    },
-    Parameter {
-        name: "bend_distance",
-        neutral: 0.01,
-        domain: Domain::Between { low: 0.01, high: 10.0 },
-        get: |it| it.bend_distance.into(),
-        set: |it, value| it.bend_distance = value as f32,
-    },
-    Parameter {
-        name: "wall_overlap",
-        neutral: 0.0,
-        domain: Domain::Amount { unit: 0.1, limit: 10.0 },
-        get: |it| it.wall_overlap.into(),
-        set: |it, value| it.wall_overlap = value as f32,
-    },
-    Parameter {
-        name: "edge_rise",
-        neutral: 0.0,
-        domain: Domain::Amount { unit: 0.5, limit: 100.0 },
-        get: |it| it.edge_rise.into(),
-        set: |it, value| it.edge_rise = value as f32,
-    },
-    Parameter {
-        name: "descent_length",
-        neutral: 0.0,
-        domain: Domain::Amount { unit: 0.25, limit: 30.0 },
-        get: |it| it.descent_length.into(),
-        set: |it, value| it.descent_length = value as f32,
-    },
-];
+/// The table of all fitted parameters, each with its neutral value and its domain.
+macro_rules! parameters {
+    ($($name:ident, $neutral:literal, $domain:expr;)*) => {
+        /// All fitted parameters, in the order in which they are changed.
+        pub(super) const PARAMETERS: &[Parameter] = &[$(Parameter {
+            name: stringify!($name),
+            neutral: $neutral,
+            domain: $domain,
+            get: |it| it.$name.into(),
+            set: |it, value| it.$name = value as _,
+        }),*];
+    };
+}
+
+parameters! {
+    heuristic_prior, 1.0, Domain::Ratio;
+    momentum_prior, 1.0, Domain::Ratio;
+    lateral_prior, 1.0, Domain::Ratio;
+    rest_prior, 1.0, Domain::Ratio;
+    rest_distance, 0.0, Domain::Amount { unit: 0.5, limit: 30.0 };
+    moving_speed, 0.0, Domain::Amount { unit: 0.5, limit: 20.0 };
+    horizon_steps, 0.0, Domain::Amount { unit: 2.0, limit: 100.0 };
+    other_initiative, 0.0, Domain::Share;
+    agreement, 0.0, Domain::Amount { unit: 0.5, limit: 30.0 };
+    colocation, 30.0, Domain::Amount { unit: 0.5, limit: 30.0 };
+    look_ahead, 0.1, Domain::Between { low: 0.1, high: 10.0 };
+    heading_tolerance, 0.0, Domain::Amount { unit: 0.1, limit: 3.0 };
+    arrival_distance, 0.0, Domain::Amount { unit: 0.1, limit: 10.0 };
+    grasp_reach, 0.0, Domain::Share;
+    waiting_widths, 0.0, Domain::Amount { unit: 0.5, limit: 10.0 };
+    interception_spacing, 10.0, Domain::Between { low: 0.1, high: 10.0 };
+    push_length, 0.0, Domain::Amount { unit: 1.0, limit: 30.0 };
+    post_distance, 0.0, Domain::Amount { unit: 0.2, limit: 10.0 };
+    clearance, 0.0, Domain::Amount { unit: 0.2, limit: 10.0 };
+    escape_length, 0.0, Domain::Amount { unit: 1.0, limit: 30.0 };
+    obstruction, 0.0, Domain::Amount { unit: 0.5, limit: 100.0 };
+    grasp, 0.0, Domain::Amount { unit: 0.5, limit: 100.0 };
+    turning, 0.0, Domain::Amount { unit: 0.5, limit: 100.0 };
+    impassable, 10.0, Domain::Amount { unit: 10.0, limit: 10_000.0 };
+    effort, 0.0, Domain::Share;
+    yielding_clearance, 0.0, Domain::Amount { unit: 0.25, limit: 30.0 };
+    passing_depth, 0.0, Domain::Amount { unit: 0.5, limit: 10.0 };
+    room_depth, 0.1, Domain::Between { low: 0.1, high: 10.0 };
+    corner, 0.0, Domain::Amount { unit: 0.5, limit: 100.0 };
+    bend_distance, 0.01, Domain::Between { low: 0.01, high: 10.0 };
+    wall_overlap, 0.0, Domain::Amount { unit: 0.1, limit: 10.0 };
+    edge_rise, 0.0, Domain::Amount { unit: 0.5, limit: 100.0 };
+    descent_length, 0.0, Domain::Amount { unit: 0.25, limit: 30.0 };
+}
 
 impl Parameter {
     /// Its value.
@@ -336,11 +151,14 @@ mod tests {
     #[test]
     fn every_parameter_from_the_heuristic_prior_on_is_fitted_and_is_the_field_of_its_name() {
         let text = serde_json::to_string(&PhaseParameters::default()).expect("JSON");
-        let places = PARAMETERS.each_ref().map(|it| text.find(&format!("\"{}\":", it.name)).expect(it.name));
+        let places = PARAMETERS
+            .iter()
+            .map(|it| text.find(&format!("\"{}\":", it.name)).expect(it.name))
+            .collect::<Vec<_>>();
         assert!(places.is_sorted(), "the order is that of the fields");
         let rest = &text[places[0]..];
         assert_eq!(rest.matches(':').count(), PARAMETERS.len(), "{rest}");
-        for parameter in &PARAMETERS {
+        for parameter in PARAMETERS {
             let changed = parameter.with(PhaseParameters::default(), 0.375);
             let json: Value = serde_json::to_value(changed).expect("JSON");
             assert_eq!((&json[parameter.name], parameter.value(&changed)), (&0.375.into(), 0.375));
@@ -349,7 +167,7 @@ mod tests {
 
     #[test]
     fn defaults_neutral_values_and_all_that_is_tried_are_within_range() {
-        for parameter in &PARAMETERS {
+        for parameter in PARAMETERS {
             let (low, high) = parameter.range();
             let default = parameter.value(&PhaseParameters::default());
             for value in [default, parameter.neutral, low, high] {

@@ -3,13 +3,14 @@
 use super::{
     edit::{alter, alter_member, space},
     folder::{EditedCopy, Original, failed},
+    kinds::Made,
 };
 use crate::error::TortureError;
 use phase_dataset::{
     manifest::{CARD_FILE, event_path, video_path},
     splits::Split,
 };
-use phase_event::{Recording, SimulationRecord, to_json};
+use phase_event::{Recording, SimulationRecord, Step, to_json};
 use phase_model::random::Pcg64Mcg;
 use phase_runs::{error::RunError, event_writer::video};
 use phase_sampler::Variant;
@@ -24,7 +25,7 @@ pub(super) fn in_event(
     copy: &EditedCopy,
     random: &mut Pcg64Mcg,
     change: impl FnOnce(&str, &mut Pcg64Mcg) -> Option<String>,
-) -> Result<bool, TortureError> {
+) -> Made {
     let Some(entry) = copy.some_event(random) else { return Ok(false) };
     let name = event_path(&entry.id);
     let text = String::from_utf8_lossy(&copy.read(&name)?).into_owned();
@@ -32,28 +33,20 @@ pub(super) fn in_event(
     copy.write(&name, changed.as_bytes()).map(|()| true)
 }
 
-pub(super) fn white_space(
-    copy: &mut EditedCopy,
-    random: &mut Pcg64Mcg,
-    _: &Original,
-) -> Result<bool, TortureError> {
+pub(super) fn white_space(copy: &mut EditedCopy, random: &mut Pcg64Mcg, _: &Original) -> Made {
     in_event(copy, random, |text, random| {
         let mut text = text.to_owned();
         space(&mut text, random).then_some(text)
     })
 }
 
-pub(super) fn comment(
-    copy: &mut EditedCopy,
-    random: &mut Pcg64Mcg,
-    _: &Original,
-) -> Result<bool, TortureError> {
+pub(super) fn comment(copy: &mut EditedCopy, random: &mut Pcg64Mcg, _: &Original) -> Made {
     in_event(copy, random, |text, _| Some(text.replacen("\"format\"", "\"_comment\":\"\",\"format\"", 1)))
 }
 
 /// Changes a member of an event. Whoever does it writes the file as PHASE does, if the event can still be
 /// read.
-pub(super) fn member(copy: &EditedCopy, random: &mut Pcg64Mcg, member: &str) -> Result<bool, TortureError> {
+pub(super) fn member(copy: &EditedCopy, random: &mut Pcg64Mcg, member: &str) -> Made {
     in_event(copy, random, |text, random| {
         let changed = alter_member(text, member, random)?;
         let Some(recording) = phase_event::from_json(&changed).ok().and_then(|mut read| read.pop()) else {
@@ -63,36 +56,21 @@ pub(super) fn member(copy: &EditedCopy, random: &mut Pcg64Mcg, member: &str) -> 
     })
 }
 
-pub(super) fn one_of(
-    copy: &EditedCopy,
-    random: &mut Pcg64Mcg,
-    members: &[&str],
-) -> Result<bool, TortureError> {
+pub(super) fn one_of(copy: &EditedCopy, random: &mut Pcg64Mcg, members: &[&str]) -> Made {
     let name = members.choose(random).copied().unwrap_or_default();
     member(copy, random, name)
 }
 
-pub(super) fn subgoals(
-    copy: &mut EditedCopy,
-    random: &mut Pcg64Mcg,
-    _: &Original,
-) -> Result<bool, TortureError> {
+pub(super) fn subgoals(copy: &mut EditedCopy, random: &mut Pcg64Mcg, _: &Original) -> Made {
     one_of(copy, random, &["subgoals", "values"])
 }
 
-pub(super) fn labels(
-    copy: &mut EditedCopy,
-    random: &mut Pcg64Mcg,
-    _: &Original,
-) -> Result<bool, TortureError> {
+pub(super) fn labels(copy: &mut EditedCopy, random: &mut Pcg64Mcg, _: &Original) -> Made {
     one_of(copy, random, &["layout", "agents", "objects", "event", "relation", "recorded_steps", "row_0"])
 }
 
 /// Changes every event.
-pub(super) fn in_all(
-    copy: &EditedCopy,
-    change: impl Fn(&mut SimulationRecord),
-) -> Result<bool, TortureError> {
+pub(super) fn in_all(copy: &EditedCopy, change: impl Fn(&mut SimulationRecord)) -> Made {
     for entry in &copy.manifest.events {
         let recording = copy.recording(entry)?;
         let Some(mut simulation) = recording.simulation else { return Ok(false) };
@@ -112,21 +90,13 @@ pub(super) fn write_event(
     copy.write(&event_path(id), text.map_err(RunError::from)?.as_bytes())
 }
 
-pub(super) fn generator_everywhere(
-    copy: &mut EditedCopy,
-    random: &mut Pcg64Mcg,
-    _: &Original,
-) -> Result<bool, TortureError> {
+pub(super) fn generator_everywhere(copy: &mut EditedCopy, random: &mut Pcg64Mcg, _: &Original) -> Made {
     let generator = format!("phase 0.{}.{}", random.random_range(0..9), random.random_range(1..99));
     copy.manifest.generator.clone_from(&generator);
     in_all(copy, |simulation| simulation.generator.clone_from(&generator))
 }
 
-pub(super) fn settings_everywhere(
-    copy: &mut EditedCopy,
-    random: &mut Pcg64Mcg,
-    _: &Original,
-) -> Result<bool, TortureError> {
+pub(super) fn settings_everywhere(copy: &mut EditedCopy, random: &mut Pcg64Mcg, _: &Original) -> Made {
     let mut settings = copy.manifest.settings.clone();
     if !alter(&mut settings, random) {
         return Ok(false);
@@ -145,11 +115,7 @@ pub(super) fn settings_everywhere(
     done
 }
 
-pub(super) fn dataset_seed(
-    copy: &mut EditedCopy,
-    random: &mut Pcg64Mcg,
-    _: &Original,
-) -> Result<bool, TortureError> {
+pub(super) fn dataset_seed(copy: &mut EditedCopy, random: &mut Pcg64Mcg, _: &Original) -> Made {
     let before = copy.manifest.seed;
     let now = random.random_range(100..1000);
     copy.manifest.seed = now;
@@ -159,58 +125,47 @@ pub(super) fn dataset_seed(
     copy.write(CARD_FILE, card.as_bytes()).map(|()| true)
 }
 
-pub(super) fn split(
-    copy: &mut EditedCopy,
-    random: &mut Pcg64Mcg,
-    _: &Original,
-) -> Result<bool, TortureError> {
+pub(super) fn split(copy: &mut EditedCopy, random: &mut Pcg64Mcg, _: &Original) -> Made {
     let Some(entry) = copy.manifest.events.choose_mut(random) else { return Ok(false) };
     entry.split = Split::ALL.choose(random).copied();
     Ok(true)
 }
 
-pub(super) fn variant(
-    copy: &mut EditedCopy,
-    random: &mut Pcg64Mcg,
-    _: &Original,
-) -> Result<bool, TortureError> {
+pub(super) fn variant(copy: &mut EditedCopy, random: &mut Pcg64Mcg, _: &Original) -> Made {
     let Some(entry) = copy.manifest.events.choose_mut(random) else { return Ok(false) };
     entry.variant = Variant::ALL.choose(random).copied();
     Ok(true)
 }
 
-/// Moves something in one frame, and draws the video again.
-pub(super) fn substeps_with_video(
-    copy: &mut EditedCopy,
+/// Changes the steps of an event, and draws the video again.
+fn steps_with_video(
+    copy: &EditedCopy,
     random: &mut Pcg64Mcg,
-    _: &Original,
-) -> Result<bool, TortureError> {
+    change: impl FnOnce(&mut Vec<Step>, &mut Pcg64Mcg) -> Option<()>,
+) -> Made {
     let Some(entry) = copy.some_event(random) else { return Ok(false) };
     let Some(mut simulation) = copy.recording(entry)?.simulation else { return Ok(false) };
-    let Some(step) = simulation.event.steps.choose_mut(random) else { return Ok(false) };
-    let Some(state) = step.substeps.choose_mut(random) else { return Ok(false) };
-    state.bodies[random.random_range(0..2)].position.x = random.random_range(8.0..24.0);
+    if change(&mut simulation.event.steps, random).is_none() {
+        return Ok(false);
+    }
     copy.write(&video_path(&entry.id), &video(&entry.id, &simulation.event)?)?;
     write_event(copy, &entry.id, simulation).map(|()| true)
 }
 
-pub(super) fn last_step(
-    copy: &mut EditedCopy,
-    random: &mut Pcg64Mcg,
-    _: &Original,
-) -> Result<bool, TortureError> {
-    let Some(entry) = copy.some_event(random) else { return Ok(false) };
-    let Some(mut simulation) = copy.recording(entry)?.simulation else { return Ok(false) };
-    simulation.event.steps.pop();
-    copy.write(&video_path(&entry.id), &video(&entry.id, &simulation.event)?)?;
-    write_event(copy, &entry.id, simulation).map(|()| true)
+/// Moves something in one frame.
+pub(super) fn substeps_with_video(copy: &mut EditedCopy, random: &mut Pcg64Mcg, _: &Original) -> Made {
+    steps_with_video(copy, random, |steps, random| {
+        let state = steps.choose_mut(random)?.substeps.choose_mut(random)?;
+        state.bodies[random.random_range(0..2)].position.x = random.random_range(8.0..24.0);
+        Some(())
+    })
 }
 
-pub(super) fn events_exchanged(
-    copy: &mut EditedCopy,
-    random: &mut Pcg64Mcg,
-    _: &Original,
-) -> Result<bool, TortureError> {
+pub(super) fn last_step(copy: &mut EditedCopy, random: &mut Pcg64Mcg, _: &Original) -> Made {
+    steps_with_video(copy, random, |steps, _| steps.pop().map(|_| ()))
+}
+
+pub(super) fn events_exchanged(copy: &mut EditedCopy, random: &mut Pcg64Mcg, _: &Original) -> Made {
     let Some((one, other)) = copy.two_events(random) else { return Ok(false) };
     let entries = [one, other].map(|k| copy.manifest.events[k].clone());
     let [first, second] = entries.each_ref().map(|entry| copy.recording(entry).map(|it| it.simulation));
@@ -224,21 +179,13 @@ pub(super) fn events_exchanged(
     Ok(true)
 }
 
-pub(super) fn order(
-    copy: &mut EditedCopy,
-    random: &mut Pcg64Mcg,
-    _: &Original,
-) -> Result<bool, TortureError> {
+pub(super) fn order(copy: &mut EditedCopy, random: &mut Pcg64Mcg, _: &Original) -> Made {
     copy.manifest.events.shuffle(random);
     Ok(true)
 }
 
 /// An event of the other dataset under the name of one of this, with its own seed and video.
-pub(super) fn other_event(
-    copy: &mut EditedCopy,
-    random: &mut Pcg64Mcg,
-    original: &Original,
-) -> Result<bool, TortureError> {
+pub(super) fn other_event(copy: &mut EditedCopy, random: &mut Pcg64Mcg, original: &Original) -> Made {
     let Some(entry) = copy.some_event(random) else { return Ok(false) };
     for name in [event_path(&entry.id), video_path(&entry.id)] {
         let path = original.other().join(&name);
@@ -249,7 +196,7 @@ pub(super) fn other_event(
 }
 
 /// A date of publication where there was none, in the command, too.
-pub(super) fn date(copy: &mut EditedCopy, random: &mut Pcg64Mcg, _: &Original) -> Result<bool, TortureError> {
+pub(super) fn date(copy: &mut EditedCopy, random: &mut Pcg64Mcg, _: &Original) -> Made {
     let date = format!("2026-{:02}-{:02}", random.random_range(1..=12), random.random_range(1..=28));
     let card = String::from_utf8_lossy(&copy.read(CARD_FILE)?).into_owned();
     let mut lines: Vec<String> = card.lines().map(String::from).collect();

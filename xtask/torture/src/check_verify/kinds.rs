@@ -7,8 +7,10 @@ use super::{
 use crate::error::TortureError;
 use phase_model::random::Pcg64Mcg;
 
-/// Makes an edit; whether there is anything to edit.
-type Make = fn(&mut EditedCopy, &mut Pcg64Mcg, &Original) -> Result<bool, TortureError>;
+/// Whether there was anything to edit.
+pub(super) type Made = Result<bool, TortureError>;
+/// Makes an edit.
+type Make = fn(&mut EditedCopy, &mut Pcg64Mcg, &Original) -> Made;
 
 /// A kind of edits.
 pub(super) struct Kind {

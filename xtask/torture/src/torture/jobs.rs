@@ -1,12 +1,12 @@
 //! The commands that are tortured.
 
-/// A command, what it needs, and what it makes.
+/// A command, what it needs, and what it makes. Words of a command are separated by spaces.
 pub(super) struct Job {
     pub(super) name: &'static str,
     /// Commands that make its input, run once in the folder that `{in}` stands for.
-    pub(super) prepare: &'static [&'static [&'static str]],
+    pub(super) prepare: &'static [&'static str],
     /// The command. It writes into `out`, in a folder of its own.
-    pub(super) command: &'static [&'static str],
+    pub(super) command: &'static str,
     /// Files that are the same in every run, but for CPU times in them; all of them if none is named. Others
     /// have measured times.
     pub(super) same: &'static [&'static str],
@@ -15,40 +15,13 @@ pub(super) struct Job {
 }
 
 /// Three events that take a moment.
-const EVENTS: &[&str] = &[
-    "gen-dataset",
-    "--events",
-    "3",
-    "--simulations",
-    "20",
-    "--particles",
-    "6",
-    "--max-steps",
-    "4",
-    "--out",
-    "data",
-];
-/// Makes a dataset that is divided, as its preset says, of events of that many steps.
-const fn divided(steps: &'static str) -> [&'static str; 12] {
-    [
-        "gen-dataset",
-        "--preset",
-        PRESET.0,
-        "--simulations",
-        "8",
-        "--particles",
-        "4",
-        "--max-steps",
-        steps,
-        "--no-video",
-        "--out",
-        "data",
-    ]
-}
-/// One to evaluate.
-const DIVIDED: &[&str] = &divided("24");
+const EVENTS: &str = "gen-dataset --events 3 --simulations 20 --particles 6 --max-steps 4 --out data";
+/// A dataset to evaluate, divided as its preset says.
+const DIVIDED: &str =
+    "gen-dataset --preset divided.json --simulations 8 --particles 4 --max-steps 24 --no-video --out data";
 /// One from which a network learns in less than a second.
-const SHORT: &[&str] = &divided("8");
+const SHORT: &str =
+    "gen-dataset --preset divided.json --simulations 8 --particles 4 --max-steps 8 --no-video --out data";
 /// The preset of these datasets, which is written before.
 pub(super) const PRESET: (&str, &str) = (
     "divided.json",
@@ -62,132 +35,54 @@ pub(super) const JOBS: [Job; 8] = [
     Job {
         name: "gen-dataset",
         prepare: &[],
-        command: &[
-            "gen-dataset",
-            "--events",
-            "3",
-            "--simulations",
-            "20",
-            "--particles",
-            "6",
-            "--max-steps",
-            "4",
-            "--jobs",
-            "2",
-            "--out",
-            "out",
-        ],
+        command: "gen-dataset --events 3 --simulations 20 --particles 6 --max-steps 4 --jobs 2 --out out",
         same: &[],
         meanwhile: None,
     },
     Job {
         name: "gen-dataset --shard",
         prepare: &[],
-        command: &[
-            "gen-dataset",
-            "--events",
-            "4",
-            "--simulations",
-            "20",
-            "--particles",
-            "6",
-            "--max-steps",
-            "4",
-            "--shard",
-            "1/2",
-            "--out",
-            "out",
-        ],
+        command: "gen-dataset --events 4 --simulations 20 --particles 6 --max-steps 4 --shard 1/2 --out out",
         same: &[],
         meanwhile: None,
     },
     Job {
         name: "merge",
         prepare: &[
-            &[
-                "gen-dataset",
-                "--events",
-                "4",
-                "--simulations",
-                "20",
-                "--particles",
-                "6",
-                "--max-steps",
-                "4",
-                "--shard",
-                "1/2",
-                "--out",
-                "one",
-            ],
-            &[
-                "gen-dataset",
-                "--events",
-                "4",
-                "--simulations",
-                "20",
-                "--particles",
-                "6",
-                "--max-steps",
-                "4",
-                "--shard",
-                "2/2",
-                "--out",
-                "two",
-            ],
+            "gen-dataset --events 4 --simulations 20 --particles 6 --max-steps 4 --shard 1/2 --out one",
+            "gen-dataset --events 4 --simulations 20 --particles 6 --max-steps 4 --shard 2/2 --out two",
         ],
-        command: &["merge", "{in}/one", "{in}/two", "--out", "out"],
+        command: "merge {in}/one {in}/two --out out",
         same: &[],
         meanwhile: None,
     },
     Job {
         name: "simulate",
-        prepare: &[&["new-scene", "--kind", "chasing", "--out", "scene.json"]],
-        command: &[
-            "simulate",
-            "--events",
-            "{in}/scene.json",
-            "--seeds",
-            "3",
-            "--simulations",
-            "20",
-            "--particles",
-            "6",
-            "--max-steps",
-            "4",
-            "--out",
-            "out",
-        ],
+        prepare: &["new-scene --kind chasing --out scene.json"],
+        command: "simulate --events {in}/scene.json --seeds 3 \
+            --simulations 20 --particles 6 --max-steps 4 --out out",
         same: &[],
         meanwhile: None,
     },
     Job {
         name: "export",
         prepare: &[EVENTS],
-        command: &["export", "{in}/data", "--events-per-file", "1", "--out", "out"],
+        command: "export {in}/data --events-per-file 1 --out out",
         same: &[],
         meanwhile: None,
     },
     Job {
         name: "eval",
         prepare: &[DIVIDED],
-        command: &["eval", "goals", "--method", "cue", "--events", "{in}/data", "--out", "out"],
+        command: "eval goals --method cue --events {in}/data --out out",
         same: &["results.json"],
         meanwhile: None,
     },
     Job {
         name: "benchmark",
         prepare: &[DIVIDED],
-        command: &[
-            "benchmark",
-            "--data",
-            "{in}/data",
-            "--methods",
-            "cue,chance,still",
-            "--evaluations",
-            "out/eval",
-            "--out",
-            "out/report",
-        ],
+        command: "benchmark --data {in}/data --methods cue,chance,still \
+            --evaluations out/eval --out out/report",
         same: &["report/benchmark.json"],
         meanwhile: None,
     },
@@ -195,16 +90,7 @@ pub(super) const JOBS: [Job; 8] = [
         name: "train",
         // Any network is written by the same code; this one learns fastest.
         prepare: &[SHORT],
-        command: &[
-            "train",
-            "socialgnn",
-            "--data",
-            "{in}/data",
-            "--rounds",
-            "3",
-            "--out",
-            "out/weights.safetensors",
-        ],
+        command: "train socialgnn --data {in}/data --rounds 3 --out out/weights.safetensors",
         same: &["weights.safetensors"],
         meanwhile: Some("weights.safetensors.checkpoint"),
     },

@@ -75,8 +75,9 @@ impl<'a> Ground<'a> {
         let preset = input.path().join(PRESET.0);
         atomic::write(&preset, PRESET.1.as_bytes()).map_err(RunError::Output)?;
         let mut ground = Self { program, job, input, whole: BTreeMap::new(), seconds: 0.0 };
-        for words in job.prepare {
-            let output = ground.program().current_dir(ground.input.path()).args(*words).output();
+        for command in job.prepare {
+            let output =
+                ground.program().current_dir(ground.input.path()).args(command.split_whitespace()).output();
             ground.expect(&End { output: output.map_err(TortureError::Start)? })?;
         }
         if permissions::EXIST {
@@ -112,7 +113,7 @@ impl<'a> Ground<'a> {
     /// A fresh folder to run the command in.
     pub(super) fn place(&self) -> Result<TempDir, TortureError> {
         let place = folder()?;
-        if self.job.command.iter().any(|word| word.starts_with("out/")) {
+        if self.job.command.split_whitespace().any(|word| word.starts_with("out/")) {
             let out = place.path().join("out");
             fs::create_dir(&out).map_err(|source| failed(&out, "create the folder", source))?;
         }
@@ -123,7 +124,7 @@ impl<'a> Ground<'a> {
         let input = self.input.path().to_string_lossy();
         let mut command = self.program();
         command.current_dir(place.path()).stdout(Stdio::null()).stderr(Stdio::piped());
-        command.args(self.job.command.iter().map(|word| word.replace("{in}", &input)));
+        command.args(self.job.command.split_whitespace().map(|word| word.replace("{in}", &input)));
         command
     }
 
