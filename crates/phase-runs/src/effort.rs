@@ -20,7 +20,7 @@ pub struct MindChoice {
 impl MindChoice {
     /// Whether nothing was chosen that differs from the default.
     #[must_use]
-    pub fn is_default(&self) -> bool {
+    pub(crate) fn is_default(&self) -> bool {
         *self == Self { kind: self.kind, ..Self::default() }
             && self.kind.unwrap_or_default() == MindKind::default()
     }

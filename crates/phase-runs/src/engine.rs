@@ -14,14 +14,14 @@ pub const GENERATOR: &str = concat!("phase ", env!("CARGO_PKG_VERSION"));
 
 /// The seed of one event of a file of scenes.
 #[must_use]
-pub fn event_seed(seed: u64, index: usize) -> u64 {
+pub(crate) fn event_seed(seed: u64, index: usize) -> u64 {
     random::derive_seed(seed, Purpose::Event, index as u64)
 }
 
 /// The seed of an attempt at one slot of a dataset, from which its scene and all randomness in its event are
 /// derived.
 #[must_use]
-pub fn attempt_seed(dataset_seed: u64, slot: usize, attempt: usize) -> u64 {
+pub(crate) fn attempt_seed(dataset_seed: u64, slot: usize, attempt: usize) -> u64 {
     random::derive_seed(event_seed(dataset_seed, slot), Purpose::Attempt, attempt as u64)
 }
 

@@ -9,7 +9,7 @@ use std::path::Path;
 
 /// The pages of a dataset so far.
 #[derive(Debug)]
-pub struct GalleryWriter<'a> {
+pub(crate) struct GalleryWriter<'a> {
     out: &'a Path,
     gallery: Gallery<'a>,
     events: Vec<EventEntry>,
@@ -20,7 +20,7 @@ pub struct GalleryWriter<'a> {
 impl<'a> GalleryWriter<'a> {
     /// No page yet.
     #[must_use]
-    pub const fn new(out: &'a Path, gallery: Gallery<'a>) -> Self {
+    pub(crate) const fn new(out: &'a Path, gallery: Gallery<'a>) -> Self {
         Self { out, gallery, events: Vec::new(), timelines: Vec::new(), pages: Vec::new() }
     }
 
@@ -28,7 +28,7 @@ impl<'a> GalleryWriter<'a> {
     ///
     /// # Errors
     /// [`RunError::Write`].
-    pub fn push(&mut self, entry: EventEntry, timeline: Timeline) -> Result<(), RunError> {
+    pub(crate) fn push(&mut self, entry: EventEntry, timeline: Timeline) -> Result<(), RunError> {
         self.events.push(entry);
         self.timelines.push(timeline);
         if self.events.len() == EVENTS_PER_PAGE { self.write_page() } else { Ok(()) }
@@ -38,7 +38,7 @@ impl<'a> GalleryWriter<'a> {
     ///
     /// # Errors
     /// [`RunError::Write`].
-    pub fn finish(mut self) -> Result<Vec<String>, RunError> {
+    pub(crate) fn finish(mut self) -> Result<Vec<String>, RunError> {
         if !self.events.is_empty() {
             self.write_page()?;
         }

@@ -5,7 +5,7 @@
 //! - [`simulate::Simulations`] simulates the scenes of a file.
 //! - [`verify`] checks that a dataset is whole and that its files are what follows from its preset and seed;
 //!   [`export`] packs it for training programs.
-//! - [`eval::Evaluation`] evaluates a method, by its name or one of your own; [`benchmark::BenchmarkRun`]
+//! - [`eval::Evaluation`] evaluates a method; [`benchmark::BenchmarkRun`]
 //!   evaluates all of them.
 //! - `train::Training` trains a network (feature `networks`).
 //! - [`source::EventInput`] opens files and folders with events, [`event_writer`] and [`picture`] make the
@@ -67,7 +67,7 @@ pub mod error;
 pub mod eval;
 pub mod event_writer;
 pub mod export;
-pub mod gallery_writer;
+mod gallery_writer;
 pub mod gen_dataset;
 pub mod interrupt;
 pub mod listener;

@@ -54,7 +54,7 @@ pub fn make_all<T: Send>(
 ///
 /// # Errors
 /// [`RunError::Threads`].
-pub fn on_threads(threads: usize, work: impl Fn() + Sync) -> Result<(), RunError> {
+pub(crate) fn on_threads(threads: usize, work: impl Fn() + Sync) -> Result<(), RunError> {
     pool(threads)?.broadcast(|_| work());
     Ok(())
 }

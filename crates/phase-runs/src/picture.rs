@@ -112,7 +112,7 @@ pub fn video<'a>(
 ///
 /// # Errors
 /// As [`write_video`].
-pub fn write_side_by_side(path: &Path, id: &str, events: &[&Event]) -> Result<(), RunError> {
+pub(crate) fn write_side_by_side(path: &Path, id: &str, events: &[&Event]) -> Result<(), RunError> {
     Ok(atomic::write(path, &beside(id, events)?)?)
 }
 

@@ -9,8 +9,10 @@ use crate::{
     error::RunError,
     eval::{
         Evaluation,
+        answers::AnswerSource,
         goals::Goals,
         input::{Event, Input},
+        methods::{forecaster, recogniser},
         ratings::Ratings,
         scored::ScoredEvent,
         task::evaluate,
@@ -145,7 +147,8 @@ impl<'a> Rows<'a> {
             Task::Goals => {
                 // Ratings are of recordings.
                 let ratings = self.ratings.clone().filter(|_| recorded);
-                let task = Goals::by_method(&name, method, weights, &minds)?.with_ratings(ratings);
+                let task = Goals::from(AnswerSource::of_method(&name, recogniser(method, weights, &minds)?))
+                    .with_ratings(ratings);
                 let Some(done) = evaluate(&task, input, common, listener)? else { return Ok(()) };
                 let events = done.events;
                 let mut row = row(name, origin, set, training, input, &events, seed);
@@ -155,7 +158,8 @@ impl<'a> Rows<'a> {
                 self.benchmark.goals.extend(row);
             }
             Task::Trajectories => {
-                let task = Trajectories::by_method(&name, method, weights, &minds)?;
+                let answers = AnswerSource::of_method(&name, forecaster(method, weights, &minds)?);
+                let task = Trajectories { answers };
                 let Some(done) = evaluate(&task, input, common, listener)? else { return Ok(()) };
                 let events = done.events;
                 self.benchmark.trajectories.extend(row(name, origin, set, training, input, &events, seed));

@@ -228,7 +228,7 @@ impl RunError {
 
     /// An id that a file does not contain, with the most similar ones.
     #[must_use]
-    pub fn unknown_id<'a>(file: &Path, id: &str, ids: impl Iterator<Item = &'a str>) -> Self {
+    pub(crate) fn unknown_id<'a>(file: &Path, id: &str, ids: impl Iterator<Item = &'a str>) -> Self {
         const SHOWN: usize = 5;
         let mut ids: Vec<&str> = ids.collect();
         ids.sort_by_key(|known| (edit_distance(id, known), *known));

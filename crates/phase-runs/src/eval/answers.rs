@@ -1,7 +1,10 @@
 //! Sources of answers: one of PHASE's methods, or a predictions file.
 
-use super::input::{Event, Input};
-use crate::{error::RunError, listener::Listener};
+use super::{
+    Answers,
+    input::{Event, Input},
+};
+use crate::{effort::MindChoice, error::RunError, listener::Listener};
 use cpu_time::ThreadTime;
 use phase_event::{EventReadError, MethodError};
 use phase_files::{
@@ -13,8 +16,14 @@ use phase_model::json::FieldError;
 use serde_json::{Value, json};
 use std::{collections::BTreeMap, path::Path};
 
-/// The source of answers.
-pub(super) enum AnswerSource<M: ?Sized, A> {
+/// The answers of a method, by its name in folders and reports.
+pub(crate) struct AnswerSource<M: ?Sized, A> {
+    /// The name.
+    pub(super) name: String,
+    kind: Kind<M, A>,
+}
+
+enum Kind<M: ?Sized, A> {
     /// A method of PHASE.
     Method(Box<M>),
     /// An external method.
@@ -26,25 +35,50 @@ pub(super) enum AnswerSource<M: ?Sized, A> {
 pub(super) type Answered<A> = Option<(A, Value, Option<f64>)>;
 
 impl<M: ?Sized, A: Clone> AnswerSource<M, A> {
+    /// The answers of one of PHASE's methods, which `method` finds, or those that `file` reads.
+    ///
+    /// # Errors
+    /// Those of `method` and `file`.
+    pub(super) fn of(
+        answers: &Answers,
+        method: impl FnOnce(&str, Option<&Path>, &MindChoice) -> Result<Box<M>, RunError>,
+        file: impl FnOnce(&Path) -> Result<PredictionsFile<A>, RunError>,
+    ) -> Result<Self, RunError> {
+        match answers {
+            Answers::Predictions(path) => {
+                let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+                Ok(Self { name, kind: Kind::PredictionsFile(file(path)?) })
+            }
+            Answers::Method { name, weights, minds } => {
+                Ok(Self::of_method(&minds.name(name), method(name, weights.as_deref(), minds)?))
+            }
+        }
+    }
+
+    /// The answers of a method, under any name.
+    pub(crate) fn of_method(name: &str, method: Box<M>) -> Self {
+        Self { name: name.into(), kind: Kind::Method(method) }
+    }
+
     /// Whether the answers come from a file.
     pub(super) const fn is_external(&self) -> bool {
-        matches!(self, Self::PredictionsFile(_))
+        matches!(self.kind, Kind::PredictionsFile(_))
     }
 
     /// The method, unless the answers come from a file.
     pub(super) fn method(&self) -> Option<&M> {
-        match self {
-            Self::Method(method) => Some(method),
-            Self::PredictionsFile(_) => None,
+        match &self.kind {
+            Kind::Method(method) => Some(method),
+            Kind::PredictionsFile(_) => None,
         }
     }
 
     /// Everything that determines the answers: what `of_method` says of a method, or the contents of the
     /// file.
     pub(super) fn settings(&self, of_method: impl FnOnce(&M) -> Value) -> Value {
-        match self {
-            Self::Method(method) => of_method(method),
-            Self::PredictionsFile(given) => given.settings(),
+        match &self.kind {
+            Kind::Method(method) => of_method(method),
+            Kind::PredictionsFile(given) => json!({ "predictions_sha256": given.sha256 }),
         }
     }
 
@@ -58,9 +92,13 @@ impl<M: ?Sized, A: Clone> AnswerSource<M, A> {
         event: &Event,
         ask: impl FnOnce(&M) -> Result<Option<(A, Value)>, MethodError>,
     ) -> Result<Answered<A>, MethodError> {
-        match self {
-            Self::PredictionsFile(given) => Ok(Some((given.answer(event)?, Value::Null, None))),
-            Self::Method(method) => {
+        match &self.kind {
+            Kind::PredictionsFile(given) => {
+                let answer = given.answers.get(&event.id).cloned();
+                let answer = answer.ok_or_else(|| MethodError::new("has no prediction"))?;
+                Ok(Some((answer, Value::Null, None)))
+            }
+            Kind::Method(method) => {
                 let begun = ThreadTime::now();
                 let asked = ask(method)?;
                 let cpu_seconds = begun.elapsed().as_secs_f64();
@@ -72,8 +110,6 @@ impl<M: ?Sized, A: Clone> AnswerSource<M, A> {
 
 /// The answers of a file, one for each requested event.
 pub(super) struct PredictionsFile<A> {
-    /// The name of the method: the file's name without its ending.
-    pub name: String,
     answers: BTreeMap<String, A>,
     sha256: String,
 }
@@ -107,22 +143,6 @@ impl<A> PredictionsFile<A> {
             let others = others.len();
             listener.note(&format!("note: {}: {others} of its events are not evaluated", file.display()));
         }
-        let name = file.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-        Ok(Self { name, answers, sha256: hexadecimal(&sha256(value.to_string().as_bytes())) })
-    }
-
-    /// Everything that determines the answers: the contents of the file.
-    fn settings(&self) -> Value {
-        json!({ "predictions_sha256": self.sha256 })
-    }
-}
-
-impl<A: Clone> PredictionsFile<A> {
-    /// The answer to an event.
-    ///
-    /// # Errors
-    /// If there is none.
-    fn answer(&self, event: &Event) -> Result<A, MethodError> {
-        self.answers.get(&event.id).cloned().ok_or_else(|| MethodError::new("has no prediction"))
+        Ok(Self { answers, sha256: hexadecimal(&sha256(value.to_string().as_bytes())) })
     }
 }

@@ -8,7 +8,7 @@ use super::{
     ratings::Ratings,
     task::Task,
 };
-use crate::{effort::MindChoice, error::RunError, listener::Listener};
+use crate::{error::RunError, listener::Listener};
 use phase_eval::{
     goals::{Answer, Label, PartialAnswer, RecognisedEvent, SocialRole},
     predictions,
@@ -21,7 +21,6 @@ use std::path::Path;
 
 /// The task.
 pub(crate) struct Goals {
-    name: String,
     answers: AnswerSource<dyn Recogniser, Answer>,
     /// Prefixes of each event to evaluate too, by their lengths (s).
     watched: Vec<f64>,
@@ -35,42 +34,15 @@ impl Goals {
     /// # Errors
     /// If there is no such method or file, or the file cannot be used.
     pub(crate) fn of(answers: &Answers, input: &Input, listener: &dyn Listener) -> Result<Self, RunError> {
-        match answers {
-            Answers::Predictions(file) => {
-                let given =
-                    PredictionsFile::read(file, input, listener, predictions::goals, |_, answer| Ok(answer))?;
-                let name = given.name.clone();
-                let answers = AnswerSource::PredictionsFile(given);
-                Ok(Self { name, answers, watched: Vec::new(), ratings: None })
-            }
-            Answers::Method { name, weights, minds } => {
-                Self::by_method(&minds.name(name), name, weights.as_deref(), minds)
-            }
-        }
-    }
-
-    /// The task for one of PHASE's methods, under any name; see [`methods::recogniser`].
-    ///
-    /// # Errors
-    /// If there is none of this name in this build, or its file of weights cannot be used.
-    pub(crate) fn by_method(
-        name: &str,
-        method: &str,
-        weights: Option<&Path>,
-        minds: &MindChoice,
-    ) -> Result<Self, RunError> {
-        Ok(Self::by(name, methods::recogniser(method, weights, minds)?))
-    }
-
-    /// The task for any method, under any name.
-    pub(crate) fn by(name: &str, method: Box<dyn Recogniser>) -> Self {
-        let answers = AnswerSource::Method(method);
-        Self { name: name.into(), answers, watched: Vec::new(), ratings: None }
+        let file = |file: &Path| {
+            PredictionsFile::read(file, input, listener, predictions::goals, |_, answer| Ok(answer))
+        };
+        AnswerSource::of(answers, methods::recogniser, file).map(Self::from)
     }
 
     /// Asks a method also after these numbers of seconds; those of a file are of whole events.
     pub(crate) fn with_watched(self, watched: Vec<f64>) -> Self {
-        if self.is_external() { self } else { Self { watched, ..self } }
+        if self.answers.is_external() { self } else { Self { watched, ..self } }
     }
 
     /// Adds people's ratings of the events.
@@ -79,17 +51,21 @@ impl Goals {
     }
 }
 
+impl From<AnswerSource<dyn Recogniser, Answer>> for Goals {
+    fn from(answers: AnswerSource<dyn Recogniser, Answer>) -> Self {
+        Self { answers, watched: Vec::new(), ratings: None }
+    }
+}
+
 impl Task for Goals {
+    type Method = dyn Recogniser;
+    type Answer = Answer;
     type ScoredEvent = RecognisedEvent;
 
     const NAME: &'static str = "goals";
 
-    fn method(&self) -> &str {
-        &self.name
-    }
-
-    fn is_external(&self) -> bool {
-        self.answers.is_external()
+    fn answers(&self) -> &AnswerSource<dyn Recogniser, Answer> {
+        &self.answers
     }
 
     fn settings(&self) -> Value {

@@ -4,7 +4,7 @@
 //! that a run can be interrupted; `shards` divides it among machines; `goals` and `trajectories` are the two
 //! tasks, `answers` has also those of an external method.
 
-mod answers;
+pub(crate) mod answers;
 pub(crate) mod goals;
 pub(crate) mod input;
 pub mod methods;
@@ -22,7 +22,6 @@ use goals::Goals;
 use input::Input;
 use phase_dataset::splits::Split;
 use phase_eval::{goals::RecognisedEvent, trajectories::ForecastEvent};
-use phase_event::{Forecaster, Recogniser};
 use ratings::Ratings;
 use std::path::PathBuf;
 use trajectories::Trajectories;
@@ -108,25 +107,13 @@ impl Evaluation {
         listener: &dyn Listener,
     ) -> Result<Option<Evaluated<RecognisedEvent>>, RunError> {
         let input = Input::open(self, listener)?;
-        let ratings = self.open_ratings(&input, listener)?;
-        let goals = Goals::of(answers, &input, listener)?;
-        self.ask_goals(goals, ratings, &input, listener)
-    }
-
-    /// Evaluates goals and relations by a method of your own; see [`Evaluation::goals`]. The name is for
-    /// folders and reports.
-    ///
-    /// # Errors
-    /// Those of [`Evaluation::goals`].
-    pub fn goals_by(
-        &self,
-        name: &str,
-        method: Box<dyn Recogniser>,
-        listener: &dyn Listener,
-    ) -> Result<Option<Evaluated<RecognisedEvent>>, RunError> {
-        let input = Input::open(self, listener)?;
-        let ratings = self.open_ratings(&input, listener)?;
-        self.ask_goals(Goals::by(name, method), ratings, &input, listener)
+        let ratings =
+            self.ratings.as_deref().map(|file| Ratings::read(file, &[&input], listener)).transpose()?;
+        let mut watched = self.watched.clone();
+        watched.sort_by(f64::total_cmp);
+        watched.dedup();
+        let goals = Goals::of(answers, &input, listener)?.with_watched(watched).with_ratings(ratings);
+        task::evaluate(&goals, &input, self, listener)
     }
 
     /// Evaluates predicted trajectories, Task 2 of the paper; `None` if that is only a part, which is now
@@ -142,36 +129,5 @@ impl Evaluation {
         let input = Input::open(self, listener)?;
         let trajectories = Trajectories::of(answers, &input, listener)?;
         task::evaluate(&trajectories, &input, self, listener)
-    }
-
-    /// Evaluates predicted trajectories by a method of your own; see [`Evaluation::goals_by`].
-    ///
-    /// # Errors
-    /// Those of [`Evaluation::goals`].
-    pub fn trajectories_by(
-        &self,
-        name: &str,
-        method: Box<dyn Forecaster>,
-        listener: &dyn Listener,
-    ) -> Result<Option<Evaluated<ForecastEvent>>, RunError> {
-        let input = Input::open(self, listener)?;
-        task::evaluate(&Trajectories::by(name, method), &input, self, listener)
-    }
-
-    fn open_ratings(&self, input: &Input, listener: &dyn Listener) -> Result<Option<Ratings>, RunError> {
-        self.ratings.as_deref().map(|file| Ratings::read(file, &[input], listener)).transpose()
-    }
-
-    fn ask_goals(
-        &self,
-        goals: Goals,
-        ratings: Option<Ratings>,
-        input: &Input,
-        listener: &dyn Listener,
-    ) -> Result<Option<Evaluated<RecognisedEvent>>, RunError> {
-        let mut watched = self.watched.clone();
-        watched.sort_by(f64::total_cmp);
-        watched.dedup();
-        task::evaluate(&goals.with_watched(watched).with_ratings(ratings), input, self, listener)
     }
 }

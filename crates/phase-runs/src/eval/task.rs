@@ -2,6 +2,7 @@
 
 use super::{
     Evaluation,
+    answers::AnswerSource,
     input::{Event, Input},
     scored::ScoredEvent,
     shards,
@@ -46,17 +47,18 @@ pub(super) const EVENTS: &str = "events";
 
 /// A task and the method that does it.
 pub(crate) trait Task: Sync {
+    /// Methods that do it.
+    type Method: ?Sized;
+    /// Their answers.
+    type Answer: Clone;
     /// One event with the method's answer.
     type ScoredEvent: ScoredEvent;
 
     /// The task's name.
     const NAME: &'static str;
 
-    /// The method's name.
-    fn method(&self) -> &str;
-
-    /// Whether the method is external, with answers from a file.
-    fn is_external(&self) -> bool;
+    /// The method or its answers.
+    fn answers(&self) -> &AnswerSource<Self::Method, Self::Answer>;
 
     /// Everything that determines the answers beside events and seed.
     fn settings(&self) -> Value;
@@ -115,15 +117,15 @@ pub(crate) fn evaluate<T: Task>(
     let whole = Run::new([
         ("command", format!("eval {}", T::NAME).into()),
         ("generator", crate::engine::GENERATOR.into()),
-        ("method", task.method().into()),
+        ("method", task.answers().name.as_str().into()),
         ("method_settings", task.settings()),
         ("seed", evaluation.seed.into()),
         ("n_events", input.events.len().into()),
         ("events_sha256", input.sha256.as_str().into()),
     ]);
     let subject = Subject {
-        method: task.method(),
-        given: task.is_external(),
+        method: task.answers().name.as_str(),
+        given: task.answers().is_external(),
         events: &input.description,
         seed: evaluation.seed,
     };
@@ -147,7 +149,7 @@ pub(crate) fn evaluate<T: Task>(
     let kept = AnswerStore { folder: folder.subfolder(EVENTS)?, program: hexadecimal(&program()) };
     let (shard_number, of) = shard.unwrap_or((1, 1));
     let chosen: Vec<&Event> = slots(shard_number, of, input.events.len()).map(|k| &input.events[k]).collect();
-    let activity = format!("evaluating {} on {}", task.method(), words::events(chosen.len()));
+    let activity = format!("evaluating {} on {}", task.answers().name.as_str(), words::events(chosen.len()));
     let progress = listener.progress(&activity, chosen.len(), task.ticks());
     let answered = make_all(parallel::threads(evaluation.threads), chosen.len(), |k| match &merged {
         Some(merged) => merged.store(k).load_or_fail(&chosen[k].id).map(Some),
@@ -299,7 +301,7 @@ fn no_events(out: &Path) -> RunError {
 
 fn default_folder<T: Task>(task: &T, input: &Input, shard: Option<(usize, usize)>) -> PathBuf {
     let shard = shard.map_or_else(String::new, |(number, of)| format!("-shard{number}of{of}"));
-    Path::new("out/eval").join(format!("{}-{}-{}{shard}", T::NAME, task.method(), input.name))
+    Path::new("out/eval").join(format!("{}-{}-{}{shard}", T::NAME, task.answers().name.as_str(), input.name))
 }
 
 fn text_of(results: &Value) -> String {

@@ -7,7 +7,7 @@ use super::{
     methods,
     task::Task,
 };
-use crate::{effort::MindChoice, error::RunError, listener::Listener};
+use crate::{error::RunError, listener::Listener};
 use phase_eval::{
     predictions,
     trajectories::{Errors, ForecastEvent, PREDICTED_STEPS, SampleErrors, WATCHED_STEPS},
@@ -19,8 +19,7 @@ use std::path::Path;
 
 /// The task.
 pub(crate) struct Trajectories {
-    name: String,
-    answers: AnswerSource<dyn Forecaster, Prediction>,
+    pub(crate) answers: AnswerSource<dyn Forecaster, Prediction>,
 }
 
 impl Trajectories {
@@ -29,50 +28,23 @@ impl Trajectories {
     /// # Errors
     /// If there is no such method or file, or the file cannot be used.
     pub(crate) fn of(answers: &Answers, input: &Input, listener: &dyn Listener) -> Result<Self, RunError> {
-        match answers {
-            Answers::Predictions(file) => {
-                let fit = |event: &Event, forecast| {
-                    predictions::fit_prediction(&forecast, event.entities, steps_to_predict(event.steps))
-                };
-                let given = PredictionsFile::read(file, input, listener, predictions::forecasts, fit)?;
-                Ok(Self { name: given.name.clone(), answers: AnswerSource::PredictionsFile(given) })
-            }
-            Answers::Method { name, weights, minds } => {
-                Self::by_method(&minds.name(name), name, weights.as_deref(), minds)
-            }
-        }
-    }
-
-    /// The task for one of PHASE's methods, under any name; see [`methods::forecaster`].
-    ///
-    /// # Errors
-    /// If there is none of this name in this build, or its file of weights cannot be used.
-    pub(crate) fn by_method(
-        name: &str,
-        method: &str,
-        weights: Option<&Path>,
-        minds: &MindChoice,
-    ) -> Result<Self, RunError> {
-        Ok(Self::by(name, methods::forecaster(method, weights, minds)?))
-    }
-
-    /// The task for any method, under any name.
-    pub(crate) fn by(name: &str, method: Box<dyn Forecaster>) -> Self {
-        Self { name: name.into(), answers: AnswerSource::Method(method) }
+        let fit = |event: &Event, forecast| {
+            predictions::fit_prediction(&forecast, event.entities, steps_to_predict(event.steps))
+        };
+        let file = |file: &Path| PredictionsFile::read(file, input, listener, predictions::forecasts, fit);
+        Ok(Self { answers: AnswerSource::of(answers, methods::forecaster, file)? })
     }
 }
 
 impl Task for Trajectories {
+    type Method = dyn Forecaster;
+    type Answer = Prediction;
     type ScoredEvent = ForecastEvent;
 
     const NAME: &'static str = "trajectories";
 
-    fn method(&self) -> &str {
-        &self.name
-    }
-
-    fn is_external(&self) -> bool {
-        self.answers.is_external()
+    fn answers(&self) -> &AnswerSource<dyn Forecaster, Prediction> {
+        &self.answers
     }
 
     fn settings(&self) -> Value {

@@ -101,7 +101,7 @@ impl Plan {
 
     /// A default folder that depends on every option a user is likely to vary.
     #[must_use]
-    pub fn default_folder(&self) -> PathBuf {
+    pub(crate) fn default_folder(&self) -> PathBuf {
         let count =
             if self.count == self.preset.events() { String::new() } else { format!("-{}", self.count) };
         let engine = match self.settings.engine {
@@ -121,7 +121,7 @@ impl Plan {
 
     /// Number of events in some slots.
     #[must_use]
-    pub fn events_in(&self, slots: &[usize]) -> usize {
+    pub(crate) fn events_in(&self, slots: &[usize]) -> usize {
         slots.iter().map(|&slot| self.composition.set(slot).map_or(1, |set| set.stances.len())).sum()
     }
 

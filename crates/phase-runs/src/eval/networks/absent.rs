@@ -9,7 +9,7 @@ use std::path::Path;
 ///
 /// # Errors
 /// None.
-pub const fn recogniser(_: &str, _: Option<&Path>) -> Result<Option<Box<dyn Recogniser>>, RunError> {
+pub(crate) const fn recogniser(_: &str, _: Option<&Path>) -> Result<Option<Box<dyn Recogniser>>, RunError> {
     Ok(None)
 }
 
@@ -17,7 +17,7 @@ pub const fn recogniser(_: &str, _: Option<&Path>) -> Result<Option<Box<dyn Reco
 ///
 /// # Errors
 /// None.
-pub const fn forecaster(_: &str, _: Option<&Path>) -> Result<Option<Box<dyn Forecaster>>, RunError> {
+pub(crate) const fn forecaster(_: &str, _: Option<&Path>) -> Result<Option<Box<dyn Forecaster>>, RunError> {
     Ok(None)
 }
 
@@ -25,7 +25,7 @@ pub const fn forecaster(_: &str, _: Option<&Path>) -> Result<Option<Box<dyn Fore
 ///
 /// # Errors
 /// None.
-pub const fn training(_: &str) -> Result<Option<Training>, RunError> {
+pub(crate) const fn training(_: &str) -> Result<Option<Training>, RunError> {
     Ok(None)
 }
 
@@ -33,6 +33,6 @@ pub const fn training(_: &str) -> Result<Option<Training>, RunError> {
 ///
 /// # Errors
 /// Always.
-pub fn training_of(file: &Path) -> Result<Training, RunError> {
+pub(crate) fn training_of(file: &Path) -> Result<Training, RunError> {
     Err(RunError::Usage(format!("{}: is for a neural network, which this program has not", file.display())))
 }

@@ -7,9 +7,9 @@
 pub const INCLUDED: bool = cfg!(feature = "networks");
 
 /// The networks for goals and relations.
-pub const RECOGNISING: [&str; 3] = ["two-level-lstm", "arg", "socialgnn"];
+pub(crate) const RECOGNISING: [&str; 3] = ["two-level-lstm", "arg", "socialgnn"];
 /// Those for trajectories.
-pub const FORECASTING: [&str; 2] = ["social-lstm", "stgat"];
+pub(crate) const FORECASTING: [&str; 2] = ["social-lstm", "stgat"];
 
 /// Whether a method is a neural network.
 #[must_use]
@@ -23,6 +23,6 @@ mod absent;
 mod trained;
 
 #[cfg(not(feature = "networks"))]
-pub use absent::{forecaster, recogniser, training, training_of};
+pub(crate) use absent::{forecaster, recogniser, training, training_of};
 #[cfg(feature = "networks")]
-pub use trained::{forecaster, recogniser, training, training_of};
+pub(crate) use trained::{forecaster, recogniser, training, training_of};

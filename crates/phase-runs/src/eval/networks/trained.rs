@@ -32,7 +32,10 @@ use std::{
 ///
 /// # Errors
 /// If the file cannot be used.
-pub fn recogniser(name: &str, weights: Option<&Path>) -> Result<Option<Box<dyn Recogniser>>, RunError> {
+pub(crate) fn recogniser(
+    name: &str,
+    weights: Option<&Path>,
+) -> Result<Option<Box<dyn Recogniser>>, RunError> {
     Ok(match name {
         "two-level-lstm" => Some(Box::new(open::<TwoLevelLstm>(weights)?)),
         "arg" => Some(Box::new(open::<Arg>(weights)?)),
@@ -45,7 +48,10 @@ pub fn recogniser(name: &str, weights: Option<&Path>) -> Result<Option<Box<dyn R
 ///
 /// # Errors
 /// If the file cannot be used.
-pub fn forecaster(name: &str, weights: Option<&Path>) -> Result<Option<Box<dyn Forecaster>>, RunError> {
+pub(crate) fn forecaster(
+    name: &str,
+    weights: Option<&Path>,
+) -> Result<Option<Box<dyn Forecaster>>, RunError> {
     Ok(match name {
         "social-lstm" => Some(Box::new(open::<SocialLstm>(weights)?)),
         "stgat" => Some(Box::new(open::<Stgat>(weights)?)),
@@ -57,7 +63,7 @@ pub fn forecaster(name: &str, weights: Option<&Path>) -> Result<Option<Box<dyn F
 ///
 /// # Errors
 /// If its record is damaged.
-pub fn training(name: &str) -> Result<Option<Training>, RunError> {
+pub(crate) fn training(name: &str) -> Result<Option<Training>, RunError> {
     let record = match name {
         "intent-network" => IntentNetwork::BUNDLED_RECORD,
         "two-level-lstm" => TwoLevelLstm::BUNDLED_RECORD,
@@ -74,7 +80,7 @@ pub fn training(name: &str) -> Result<Option<Training>, RunError> {
 ///
 /// # Errors
 /// If there is none or it cannot be used.
-pub fn training_of(file: &Path) -> Result<Training, RunError> {
+pub(crate) fn training_of(file: &Path) -> Result<Training, RunError> {
     let mut beside = OsString::from(file);
     beside.push(".training.json");
     let beside = PathBuf::from(beside);
