@@ -39,9 +39,10 @@ fn copied() -> tempfile::TempDir {
         fs::create_dir_all(place.parent().expect("a folder")).expect("a folder");
         fs::write(place, bytes).expect("written");
     }
-    fs::create_dir_all(folder.path().join("docs")).expect("a folder");
     for file in SOURCES {
-        fs::copy(root().join(file), folder.path().join(file)).expect("a copy");
+        let place = folder.path().join(file);
+        fs::create_dir_all(place.parent().expect("a folder")).expect("a folder");
+        fs::copy(root().join(file), place).expect("a copy");
     }
     folder
 }
