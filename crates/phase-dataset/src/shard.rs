@@ -7,10 +7,7 @@ use crate::{
 };
 use core::{iter::StepBy, ops::Range};
 use phase_files::{
-    FileError, Problem, WriteError,
-    atomic::{self, AtomicFile},
-    checksum::FileEntry,
-    json, regular,
+    FileError, Problem, WriteError, atomic, checksum::FileEntry, json, measured::MeasuredFile, regular,
 };
 use phase_model::json::{check_format, parse_as};
 use serde::{Deserialize, Serialize};
@@ -75,18 +72,15 @@ pub struct Shard {
 }
 
 impl Shard {
-    /// Describes a shard whose records have been written.
-    ///
-    /// # Errors
-    /// If they cannot be read.
+    /// Describes a shard whose records have been written, by [`write_slots`].
+    #[must_use]
     pub fn of_records(
-        folder: &Path,
         (shard, of): (usize, usize),
         whole: DatasetDescription,
         fingerprint: String,
-    ) -> Result<Self, FileError> {
-        let slots = FileEntry::of(folder, SLOTS_FILE)?;
-        Ok(Self { format: SHARD_FORMAT.into(), shard, of, whole, fingerprint, slots })
+        slots: FileEntry,
+    ) -> Self {
+        Self { format: SHARD_FORMAT.into(), shard, of, whole, fingerprint, slots }
     }
 
     /// Reads what a folder's shard is, and checks that its records are as they were written.
@@ -143,13 +137,13 @@ impl Shard {
     }
 }
 
-/// Writes the records of a shard, one a line, atomically.
+/// Writes the records of a shard, one a line, atomically, and describes the file.
 ///
 /// # Errors
 /// [`ExportError`].
-pub fn write_slots(folder: &Path, records: &dyn Records) -> Result<(), ExportError> {
+pub fn write_slots(folder: &Path, records: &dyn Records) -> Result<FileEntry, ExportError> {
     let path = folder.join(SLOTS_FILE);
-    let mut file = AtomicFile::create(&path)?;
+    let mut file = MeasuredFile::create(folder, SLOTS_FILE)?;
     for record in records.records() {
         let line = serde_json::to_string(&record?).map_err(|error| WriteError::json(&path, error))?;
         writeln!(file, "{line}").map_err(|source| file.failed(source))?;

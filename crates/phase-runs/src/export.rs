@@ -9,10 +9,10 @@ use phase_dataset::{
     splits::Split,
 };
 use phase_files::{
-    WriteError,
-    atomic::{self, AtomicFile},
+    WriteError, atomic,
     checksum::FileEntry,
     folder::{self, Contents, Folder},
+    measured::MeasuredFile,
     regular,
     run::Run,
 };
@@ -87,14 +87,14 @@ pub fn export(
             manifest.events.iter().filter(|entry| entry.split() == split).collect();
         for (k, events) in events.chunks(events_per_file).enumerate() {
             let name = format!("{}-{k:05}.tar", split.name());
-            if !out.join(&name).exists() {
-                write(from, &out.join(&name), events)?;
-            }
+            let entry = match out.join(&name).exists() {
+                true => FileEntry::of(out, name).map_err(RunError::ReadBack)?,
+                false => write(from, out, &name, events)?,
+            };
             if interrupt::requested() {
                 return Err(RunError::Interrupted(out.to_owned()));
             }
             progress.steps(events.len());
-            let entry = FileEntry::of(out, name).map_err(RunError::ReadBack)?;
             files.push(json!({ "file": entry, "split": split, "events": events.len() }));
         }
     }
@@ -106,9 +106,9 @@ pub fn export(
 }
 
 /// Writes one tar file.
-fn write(from: &Path, path: &Path, events: &[&EventEntry]) -> Result<(), RunError> {
-    let failed = |source| WriteError { path: path.to_owned(), action: "write the file", source };
-    let mut tar = Builder::new(AtomicFile::create(path)?);
+fn write(from: &Path, out: &Path, name: &str, events: &[&EventEntry]) -> Result<FileEntry, RunError> {
+    let failed = |source| WriteError { path: out.join(name), action: "write the file", source };
+    let mut tar = Builder::new(MeasuredFile::create(out, name)?);
     for entry in events {
         let labels = labels(entry).map_err(|source| RunError::Serialise { what: "labels", source })?;
         let id = &entry.id;
@@ -119,8 +119,7 @@ fn write(from: &Path, path: &Path, events: &[&EventEntry]) -> Result<(), RunErro
             append(&mut tar, &name, &whole(from, file)?).map_err(failed)?;
         }
     }
-    tar.into_inner().map_err(failed)?.commit()?;
-    Ok(())
+    Ok(tar.into_inner().map_err(failed)?.commit()?)
 }
 
 /// The labels of an event: its entry of the manifest with every member in every event, of one type. Loaders
@@ -158,7 +157,7 @@ fn labels(entry: &EventEntry) -> serde_json::Result<Value> {
 }
 
 /// Adds a file without owner and time, so that the same events give the same bytes.
-fn append(tar: &mut Builder<AtomicFile>, name: &str, bytes: &[u8]) -> std::io::Result<()> {
+fn append(tar: &mut Builder<MeasuredFile>, name: &str, bytes: &[u8]) -> std::io::Result<()> {
     let mut header = Header::new_ustar();
     header.set_size(bytes.len() as u64);
     header.set_mode(0o644);

@@ -3,7 +3,7 @@
 
 use crate::error::RunError;
 use phase_dataset::manifest::{EventEntry, PAGE_FILE};
-use phase_files::{WriteError, atomic};
+use phase_files::{WriteError, checksum::FileEntry, measured};
 use phase_report::gallery::{EVENTS_PER_PAGE, Gallery, PAGES_FOLDER, PageSummary, Timeline};
 use std::path::Path;
 
@@ -15,13 +15,14 @@ pub(crate) struct GalleryWriter<'a> {
     events: Vec<EventEntry>,
     timelines: Vec<Timeline>,
     pages: Vec<PageSummary>,
+    files: Vec<FileEntry>,
 }
 
 impl<'a> GalleryWriter<'a> {
     /// No page yet.
     #[must_use]
     pub(crate) const fn new(out: &'a Path, gallery: Gallery<'a>) -> Self {
-        Self { out, gallery, events: Vec::new(), timelines: Vec::new(), pages: Vec::new() }
+        Self { out, gallery, events: Vec::new(), timelines: Vec::new(), pages: Vec::new(), files: Vec::new() }
     }
 
     /// Adds an event; writes a page when it is full.
@@ -34,20 +35,19 @@ impl<'a> GalleryWriter<'a> {
         if self.events.len() == EVENTS_PER_PAGE { self.write_page() } else { Ok(()) }
     }
 
-    /// Writes what is left, and returns the names of all files.
+    /// Writes what is left, and returns all files.
     ///
     /// # Errors
     /// [`RunError::Write`].
-    pub(crate) fn finish(mut self) -> Result<Vec<String>, RunError> {
+    pub(crate) fn finish(mut self) -> Result<Vec<FileEntry>, RunError> {
         if !self.events.is_empty() {
             self.write_page()?;
         }
-        let mut files: Vec<String> = (0..self.pages.len()).map(|number| self.gallery.file(number)).collect();
         if !self.gallery.is_one_page() {
-            atomic::write(&self.out.join(PAGE_FILE), self.gallery.index(&self.pages).as_bytes())?;
-            files.push(PAGE_FILE.into());
+            let text = self.gallery.index(&self.pages);
+            self.files.push(measured::write(self.out, PAGE_FILE, text.as_bytes())?);
         }
-        Ok(files)
+        Ok(self.files)
     }
 
     fn write_page(&mut self) -> Result<(), RunError> {
@@ -61,7 +61,7 @@ impl<'a> GalleryWriter<'a> {
             })?;
         }
         let text = self.gallery.page(number, &self.events, &self.timelines);
-        atomic::write(&self.out.join(self.gallery.file(number)), text.as_bytes())?;
+        self.files.push(measured::write(self.out, self.gallery.file(number), text.as_bytes())?);
         self.pages.extend(PageSummary::of(&self.events));
         self.events.clear();
         self.timelines.clear();

@@ -108,14 +108,6 @@ pub fn video<'a>(
     mp4().map_err(|source| RunError::Render { id: id.into(), source })
 }
 
-/// Writes a video of several events beside each other, smaller, until the longest ends.
-///
-/// # Errors
-/// As [`write_video`].
-pub(crate) fn write_side_by_side(path: &Path, id: &str, events: &[&Event]) -> Result<(), RunError> {
-    Ok(atomic::write(path, &beside(id, events)?)?)
-}
-
 /// Draws in memory a video of several events beside each other, smaller, until the longest ends.
 ///
 /// # Errors

@@ -93,8 +93,8 @@ fn filled(folder: &Path, count: usize) -> Listed {
 
 /// Writes the first of two shards, which has three of five slots.
 fn first_shard(folder: &Path, records: &Listed) -> Shard {
-    write_slots(folder, records).expect("written");
-    let shard = Shard::of_records(folder, (1, 2), whole(), "a".into()).expect("described");
+    let slots = write_slots(folder, records).expect("written");
+    let shard = Shard::of_records((1, 2), whole(), "a".into(), slots);
     shard.write(folder).expect("written");
     shard
 }

@@ -22,8 +22,7 @@ use phase_dataset::{
 use phase_event::Recording;
 use phase_files::{
     FileError, Problem,
-    atomic::{self, AtomicFile},
-    checksum::FileEntry,
+    measured::{self, MeasuredFile},
 };
 use phase_report::{
     card::{self, card},
@@ -105,19 +104,17 @@ pub(crate) fn describe_all(
     }
     overview.files = parquet.finish()?;
     if let Some(table) = sets {
-        table.finish(out, &mut overview)?;
+        overview.files.push(table.file.commit()?);
     }
-    for page in pages.map_or_else(|| Ok(Vec::new()), GalleryWriter::finish)? {
-        overview.files.push(FileEntry::of(out, page).map_err(RunError::ReadBack)?);
-    }
+    overview.files.extend(pages.map_or_else(|| Ok(Vec::new()), GalleryWriter::finish)?);
     if let Some(table) = videos {
-        table.finish(out, &mut overview)?;
+        overview.files.push(table.file.commit()?);
     }
     let shortcuts = shortcuts::section(audit(&audited, overview.events).as_ref(), overview.events);
     let text = card(&overview, command, &shortcuts);
-    describe(out, &mut overview, CARD_FILE, &text)?;
+    overview.files.push(measured::write(out, CARD_FILE, text.as_bytes())?);
     let text = croissant(&overview, card::about());
-    describe(out, &mut overview, CROISSANT_FILE, &text)?;
+    overview.files.push(measured::write(out, CROISSANT_FILE, text.as_bytes())?);
     let digest = write_manifest(out, &overview, records)?;
     Ok(Completed { overview, digest })
 }
@@ -140,13 +137,12 @@ fn count(whole: &DatasetDescription, records: &dyn Records) -> Result<Overview, 
 
 /// A file that does not belong to a single event, and is written line by line.
 struct Table {
-    name: &'static str,
-    file: AtomicFile,
+    file: MeasuredFile,
 }
 
 impl Table {
     fn create(out: &Path, name: &'static str, header: &str) -> Result<Self, RunError> {
-        let mut table = Self { name, file: AtomicFile::create(&out.join(name))? };
+        let mut table = Self { file: MeasuredFile::create(out, name)? };
         table.add(header)?;
         Ok(table)
     }
@@ -154,20 +150,6 @@ impl Table {
     fn add(&mut self, text: &str) -> Result<(), RunError> {
         self.file.write_all(text.as_bytes()).map_err(|source| self.file.failed(source).into())
     }
-
-    /// Completes the file and adds it to the manifest.
-    fn finish(self, out: &Path, overview: &mut Overview) -> Result<(), RunError> {
-        self.file.commit()?;
-        overview.files.push(FileEntry::of(out, self.name).map_err(RunError::ReadBack)?);
-        Ok(())
-    }
-}
-
-/// Writes a file that does not belong to a single event, and adds it to the manifest.
-fn describe(out: &Path, overview: &mut Overview, name: &str, text: &str) -> Result<(), RunError> {
-    atomic::write(&out.join(name), text.as_bytes())?;
-    overview.files.push(FileEntry::of(out, name).map_err(RunError::ReadBack)?);
-    Ok(())
 }
 
 /// The event of an entry, from its file.

@@ -142,9 +142,8 @@ impl Generation {
         drop(slots);
         let records = FilledSlots { plan, folder: &folder };
         if let Some((shard, of)) = plan.shard {
-            shard::write_slots(&out, &records)?;
-            let header = Shard::of_records(&out, (shard, of), plan.whole(), plan.fingerprint.clone());
-            header.map_err(RunError::ReadBack)?.write(&out)?;
+            let slots = shard::write_slots(&out, &records)?;
+            Shard::of_records((shard, of), plan.whole(), plan.fingerprint.clone(), slots).write(&out)?;
             folder.finish()?;
             return Ok(Generated { folder: out, events, outcome: Outcome::MadeShard(shard, of) });
         }

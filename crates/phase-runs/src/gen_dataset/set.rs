@@ -11,7 +11,7 @@ use phase_dataset::{
     manifest::EventEntry,
 };
 use phase_event::Event;
-use phase_files::checksum::FileEntry;
+use phase_files::measured;
 use phase_model::{AgentId, Scene};
 use phase_sampler::{SampleError, Stance};
 
@@ -54,8 +54,7 @@ impl Slots<'_> {
         let pairs = PairEntry::all(&named);
         let out = self.folder.path();
         let video = if self.plan.videos {
-            picture::write_side_by_side(&out.join(set_video_path(id)), id, &events)?;
-            Some(FileEntry::of(out, set_video_path(id)).map_err(RunError::ReadBack)?)
+            Some(measured::write(out, set_video_path(id), &picture::beside(id, &events)?)?)
         } else {
             None
         };
