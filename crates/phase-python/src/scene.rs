@@ -1,15 +1,10 @@
 //! Scenes: read, written, sampled.
 
 use crate::error::raise;
-use phase_dataset::composition::{Composition, EventSlot, SetSlot};
-use phase_model::{
-    Action, AgentId, Scene as ModelScene,
-    random::{self, Purpose},
-};
-use phase_runs::gen_dataset::plan;
-use phase_sampler::{Contrast, ContrastRequest, Part, Request, SampleError, Stage, sample, sample_named};
+use phase_model::{Action, AgentId, Scene as ModelScene};
+use phase_runs::gen_dataset::{any_scene, plan};
+use phase_sampler::sample_named;
 use pyo3::prelude::*;
-use rand::RngExt;
 
 /// A valid scene: walls, bodies, goals and attitudes. `phase_events.scene` makes one of a description,
 /// `phase_events.sample_scene` draws one. It does not change.
@@ -43,30 +38,8 @@ impl Scene {
     #[staticmethod]
     fn sample_preset(py: Python<'_>, preset: &str, seed: u64) -> PyResult<Self> {
         let preset = plan::preset(preset).map_err(raise)?;
-        let scene = py.detach(|| {
-            let composition = Composition::of(&preset);
-            let mut random = random::stream(seed, Purpose::Scene, 0);
-            let slots = composition.slots(preset.events()).unwrap_or_default().max(1);
-            let index = random.random_range(0..slots);
-            if let Some(set) = composition.set(index) {
-                let layouts = preset.pool(&set.layouts);
-                let SetSlot { stances, about, goal_index, .. } = &set;
-                let request =
-                    ContrastRequest { stances, about: *about, goal_index: *goal_index, layouts: &layouts };
-                let contrast = Contrast::sample(&request, &mut random)?;
-                let member = random.random_range(0..stances.len());
-                return Ok(contrast.scenes[member].clone());
-            }
-            let slot = composition.slot(index);
-            let layouts = preset.pool(&slot.layouts);
-            let EventSlot { variant, goal_index, .. } = slot;
-            if let Some(place) = slot.block {
-                let stage = Stage::sample(&composition.parts(place), &layouts, &mut random)?;
-                return stage.scene(Part { variant, goal_index }, &mut random);
-            }
-            sample(&Request { variant, goal_index, layouts: &layouts }, &mut random)
-        });
-        Ok(Self { scene: scene.map_err(|error: SampleError| raise(error))? })
+        let scene = py.detach(|| any_scene(&preset, seed));
+        Ok(Self { scene: scene.map_err(raise)? })
     }
 
     /// The scene as JSON, as it stands in a file of events.

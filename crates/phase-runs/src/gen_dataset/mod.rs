@@ -33,6 +33,7 @@ use phase_files::{
     run::Run,
 };
 use plan::Plan;
+pub use scenes::any_scene;
 use slot::{FilledSlots, Slots};
 use std::path::{Path, PathBuf};
 

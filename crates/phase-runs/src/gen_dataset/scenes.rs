@@ -8,11 +8,11 @@ use phase_dataset::{
 };
 use phase_model::{
     Layout, Relation, Scene,
-    random::{self, Purpose},
+    random::{self, Pcg64Mcg, Purpose},
 };
-use phase_sampler::{Contrast, ContrastRequest, Part, Request, SampleError, Stage};
+use phase_sampler::{Contrast, ContrastRequest, Part, Request, SampleError, Stage, sample};
 use phase_sim::SimulationSettings;
-use rand::seq::SliceRandom;
+use rand::{RngExt, seq::SliceRandom};
 use std::{
     collections::BTreeMap,
     sync::{Arc, Mutex, OnceLock, PoisonError},
@@ -26,6 +26,35 @@ const MAX_STAGES: usize = 1000;
 /// Layouts from one block to the next. Coprime to the sizes of the pools of bundled presets: blocks that
 /// follow one another have different base layouts.
 const LAYOUT_STRIDE: usize = 11;
+
+/// Draws a scene as a preset has them, from a seed: of a random one of its slots, with that slot's variant,
+/// goals and layouts.
+///
+/// # Errors
+/// If none can be drawn.
+pub fn any_scene(preset: &Preset, seed: u64) -> Result<Scene, SampleError> {
+    let composition = Composition::of(preset);
+    let mut random = random::stream(seed, Purpose::Scene, 0);
+    let slots = composition.slots(preset.events()).unwrap_or_default().max(1);
+    let index = random.random_range(0..slots);
+    if let Some(set) = composition.set(index) {
+        let mut scenes = contrast(&set, &preset.pool(&set.layouts), &mut random)?.scenes;
+        return Ok(scenes.swap_remove(random.random_range(0..set.stances.len())));
+    }
+    let EventSlot { variant, goal_index, layouts, block, .. } = composition.slot(index);
+    let layouts = preset.pool(&layouts);
+    let Some(place) = block else {
+        return sample(&Request { variant, goal_index, layouts: &layouts }, &mut random);
+    };
+    let stage = Stage::sample(&composition.parts(place), &layouts, &mut random)?;
+    stage.scene(Part { variant, goal_index }, &mut random)
+}
+
+fn contrast(slot: &SetSlot, layouts: &[Layout], random: &mut Pcg64Mcg) -> Result<Contrast, SampleError> {
+    let SetSlot { stances, about, goal_index, .. } = slot;
+    let request = ContrastRequest { stances, about: *about, goal_index: *goal_index, layouts };
+    Contrast::sample(&request, random)
+}
 
 /// A stage, or that there is none, once that is known.
 type DrawnStage = OnceLock<Result<Stage, SampleError>>;
@@ -65,7 +94,7 @@ impl<'a> Scenes<'a> {
         let variant = slot.variant;
         let goal_index = slot.goal_index;
         let Some(place) = slot.block else {
-            return phase_sampler::sample(&Request { variant, goal_index, layouts }, &mut random);
+            return sample(&Request { variant, goal_index, layouts }, &mut random);
         };
         let stage = self.stage(place, layouts, number / ATTEMPTS_PER_STAGE)?;
         stage.scene(Part { variant, goal_index }, &mut random)
@@ -76,13 +105,7 @@ impl<'a> Scenes<'a> {
     /// # Errors
     /// If none can be drawn.
     pub(crate) fn contrast(&self, slot: &SetSlot, seed: u64) -> Result<Contrast, SampleError> {
-        let request = ContrastRequest {
-            stances: &slot.stances,
-            about: slot.about,
-            goal_index: slot.goal_index,
-            layouts: self.pool(&slot.layouts),
-        };
-        Contrast::sample(&request, &mut random::stream(seed, Purpose::Scene, 0))
+        contrast(slot, self.pool(&slot.layouts), &mut random::stream(seed, Purpose::Scene, 0))
     }
 
     /// Puts the events of a set, which are in the order of its stances, in the order of their names, which
