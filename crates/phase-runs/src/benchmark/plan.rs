@@ -27,9 +27,9 @@ pub const METHODS: [&str; 17] = [
     "still",
 ];
 /// Those of them that do each task.
-const TASKS: [(Task, &[&str]); 2] = [
+const TASKS: [(BenchmarkTask, &[&str]); 2] = [
     (
-        Task::Goals,
+        BenchmarkTask::Goals,
         &[
             "chance",
             "cue",
@@ -46,12 +46,12 @@ const TASKS: [(Task, &[&str]); 2] = [
             "simple",
         ],
     ),
-    (Task::Trajectories, &["still", "constant-velocity", "social-lstm", "stgat", "simple"]),
+    (BenchmarkTask::Trajectories, &["still", "constant-velocity", "social-lstm", "stgat", "simple"]),
 ];
 
 /// The paper's two tasks.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(super) enum Task {
+pub(super) enum BenchmarkTask {
     /// Goals and relations.
     Goals,
     /// Trajectories.
@@ -62,7 +62,7 @@ pub(super) enum Task {
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub(super) struct BenchmarkEntry {
     /// The task.
-    pub task: Task,
+    pub task: BenchmarkTask,
     /// Its name in the report.
     pub name: String,
     /// The method's own name.
@@ -84,11 +84,11 @@ impl BenchmarkEntry {
     /// weights, and without the variants of SIMPLE, which take several times as long.
     #[must_use]
     pub(super) fn does_pairs(&self) -> bool {
-        self.task == Task::Goals && self.weights.is_none() && !self.method.starts_with("simple-")
+        self.task == BenchmarkTask::Goals && self.weights.is_none() && !self.method.starts_with("simple-")
     }
 }
 
-impl Task {
+impl BenchmarkTask {
     /// The folder name of its evaluations.
     #[must_use]
     pub(super) const fn name(self) -> &'static str {

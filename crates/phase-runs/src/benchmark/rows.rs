@@ -2,7 +2,7 @@
 
 use super::{
     BenchmarkRun,
-    plan::{BenchmarkEntry, Task, minds_of},
+    plan::{BenchmarkEntry, BenchmarkTask, minds_of},
 };
 use crate::{
     engine::GENERATOR,
@@ -144,7 +144,7 @@ impl<'a> Rows<'a> {
         let recorded = self.benchmark.sets[set].label == RECORDED;
         let minds = minds_of(self.run, method, recorded);
         match task {
-            Task::Goals => {
+            BenchmarkTask::Goals => {
                 // Ratings are of recordings.
                 let ratings = self.ratings.clone().filter(|_| recorded);
                 let task = Goals::from(AnswerSource::of_method(&name, recogniser(method, weights, &minds)?))
@@ -157,7 +157,7 @@ impl<'a> Rows<'a> {
                 }
                 self.benchmark.goals.extend(row);
             }
-            Task::Trajectories => {
+            BenchmarkTask::Trajectories => {
                 let answers = AnswerSource::of_method(&name, forecaster(method, weights, &minds)?);
                 let task = Trajectories { answers };
                 let Some(done) = evaluate(&task, input, common, listener)? else { return Ok(()) };

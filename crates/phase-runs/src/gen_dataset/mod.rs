@@ -32,7 +32,7 @@ use phase_files::{
     folder::{self, Contents, Folder},
     run::Run,
 };
-use plan::Plan;
+use plan::DatasetPlan;
 pub use scenes::any_scene;
 use slot::{FilledSlots, Slots};
 use std::path::{Path, PathBuf};
@@ -110,7 +110,7 @@ impl Generation {
     /// If the preset or the folder cannot be used, no scene of a slot shows its label, a file cannot be
     /// written, or a stop was requested.
     pub fn run(&self, listener: &dyn Listener) -> Result<Generated, RunError> {
-        let plan = Plan::of(self)?;
+        let plan = DatasetPlan::of(self)?;
         let out = self.out.clone().unwrap_or_else(|| plan.default_folder());
         let last_file = if plan.shard.is_some() { SHARD_FILE } else { MANIFEST_FILE };
         match folder::inspect(&out, last_file)? {
@@ -126,7 +126,7 @@ impl Generation {
         self.make(&plan, out, listener)
     }
 
-    fn make(&self, plan: &Plan, out: PathBuf, listener: &dyn Listener) -> Result<Generated, RunError> {
+    fn make(&self, plan: &DatasetPlan, out: PathBuf, listener: &dyn Listener) -> Result<Generated, RunError> {
         let folder = Folder::claim(&out, &plan.run())?;
         folder.subfolder("events")?;
         if plan.videos {
@@ -159,7 +159,7 @@ impl Generation {
 }
 
 /// A finished and complete shard is used unchanged if it is the requested one.
-fn finished_shard(plan: &Plan, out: &Path) -> Result<Generated, RunError> {
+fn finished_shard(plan: &DatasetPlan, out: &Path) -> Result<Generated, RunError> {
     let shard = Shard::read(out)?;
     let run = run_of(&shard.whole, Some((shard.shard, shard.of)));
     plan.run().check(out, "a finished", run.value())?;

@@ -23,7 +23,7 @@ use std::path::{Path, PathBuf};
 
 /// A preset with everything that a generation adds to it.
 #[derive(Clone, Debug)]
-pub struct Plan {
+pub struct DatasetPlan {
     /// The recipe.
     pub preset: Preset,
     /// Its slots.
@@ -48,7 +48,7 @@ pub struct Plan {
     command: String,
 }
 
-impl Plan {
+impl DatasetPlan {
     /// The plan of a generation.
     ///
     /// # Errors

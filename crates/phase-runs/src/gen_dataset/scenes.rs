@@ -1,6 +1,6 @@
 //! The scenes that are tried for the slots of a dataset. They follow from its preset and seed alone.
 
-use super::plan::Plan;
+use super::plan::DatasetPlan;
 use crate::engine;
 use phase_dataset::{
     composition::{BlockPlace, Composition, EventSlot, SetSlot},
@@ -73,8 +73,8 @@ pub(crate) struct Scenes<'a> {
 
 impl<'a> Scenes<'a> {
     /// The scenes of a plan.
-    pub(crate) fn of(plan: &'a Plan) -> Self {
-        let Plan { preset, composition, seed, settings, .. } = plan;
+    pub(crate) fn of(plan: &'a DatasetPlan) -> Self {
+        let DatasetPlan { preset, composition, seed, settings, .. } = plan;
         let pools = preset.layouts.keys().map(|name| (name.clone(), preset.pool(name))).collect();
         Self { preset, composition, seed: *seed, settings: *settings, pools, stages: Mutex::default() }
     }

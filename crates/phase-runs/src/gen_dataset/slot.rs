@@ -3,7 +3,7 @@
 
 use super::{
     attempt::{Attempt, Cast, CastMember, Member},
-    plan::Plan,
+    plan::DatasetPlan,
     scenes::Scenes,
     schedule::Part,
 };
@@ -35,7 +35,7 @@ use std::path::PathBuf;
 
 /// The slots of a dataset that is being generated in a folder.
 pub(super) struct Slots<'a> {
-    pub(super) plan: &'a Plan,
+    pub(super) plan: &'a DatasetPlan,
     pub(super) folder: &'a Folder,
     pub(super) event_writer: EventWriter,
     pub(super) scenes: Scenes<'a>,
@@ -48,7 +48,7 @@ impl<'a> Slots<'a> {
     /// # Errors
     /// [`RunError::Serialise`].
     pub(super) fn new(
-        plan: &'a Plan,
+        plan: &'a DatasetPlan,
         folder: &'a Folder,
         count: usize,
         listener: &'a dyn Listener,
@@ -206,7 +206,7 @@ impl<'a> Slots<'a> {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct FilledSlots<'a> {
     /// Plan of the dataset that is generated.
-    pub(super) plan: &'a Plan,
+    pub(super) plan: &'a DatasetPlan,
     /// Folder of the dataset.
     pub(super) folder: &'a Folder,
 }
@@ -219,7 +219,7 @@ impl Records for FilledSlots<'_> {
     }
 }
 
-fn record_path(plan: &Plan, folder: &Folder, index: usize) -> PathBuf {
+fn record_path(plan: &DatasetPlan, folder: &Folder, index: usize) -> PathBuf {
     folder.cache().join(format!("{}.json", plan.preset.id(index)))
 }
 

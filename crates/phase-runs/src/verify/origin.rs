@@ -5,7 +5,7 @@ use super::{Checks, derived::command};
 use crate::{
     engine::{GENERATOR, attempt_seed},
     error::RunError,
-    gen_dataset::{Generation, description, plan::Plan, run_of, scenes::Scenes, slot::required},
+    gen_dataset::{Generation, description, plan::DatasetPlan, run_of, scenes::Scenes, slot::required},
 };
 use phase_dataset::{
     acceptance::Acceptance,
@@ -25,7 +25,7 @@ type Violation = (&'static str, String);
 
 /// The events of a plan, as far as they do not depend on minds.
 pub(super) struct Origin {
-    plan: Plan,
+    plan: DatasetPlan,
     slots: Vec<Slot>,
 }
 
@@ -203,7 +203,7 @@ impl Origin {
 
 /// The plan of the command in the card: an error if there is no such command, an inner one if there is no
 /// such preset here.
-fn plan(folder: &Path, checks: &Checks) -> Result<Result<Plan, RunError>, String> {
+fn plan(folder: &Path, checks: &Checks) -> Result<Result<DatasetPlan, RunError>, String> {
     let text = command(folder).map_err(|error| error.to_string())?;
     let text = text.ok_or("a card, which has the command that made the dataset")?;
     if !text.starts_with("phase gen-dataset ") {
@@ -218,11 +218,11 @@ fn plan(folder: &Path, checks: &Checks) -> Result<Result<Plan, RunError>, String
         // The card may name any file, and is not believed.
         return Err(format!("what can be replayed: give the file of its preset, {preset:?}, with --preset"));
     }
-    Ok(Plan::of(&generation))
+    Ok(DatasetPlan::of(&generation))
 }
 
 /// The place of each event in a plan, in order.
-fn slots_of(plan: &Plan) -> Vec<Slot> {
+fn slots_of(plan: &DatasetPlan) -> Vec<Slot> {
     let members = |index| plan.composition.set(index).map_or(1, |set| set.stances.len());
     (0..plan.slot_count)
         .flat_map(|index| (0..members(index)).map(move |member| Slot { index, member }))

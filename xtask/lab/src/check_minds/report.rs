@@ -1,7 +1,7 @@
 //! The report of all events, by kind and by role.
 
 use super::{
-    figures::{Figures, Member},
+    figures::{Member, MindFigures},
     measure::MeasuredEvent,
     role::Role,
 };
@@ -22,13 +22,13 @@ pub(super) struct MindsReport {
     pub(super) lapse: f64,
     /// All events.
     #[serde(flatten)]
-    pub(super) overall: Figures,
+    pub(super) overall: MindFigures,
     /// By name of the kind.
     #[serde(serialize_with = "as_object")]
-    pub(super) kinds: Vec<(&'static str, Figures)>,
+    pub(super) kinds: Vec<(&'static str, MindFigures)>,
     /// By name of the role.
     #[serde(serialize_with = "as_object")]
-    pub(super) roles: Vec<(&'static str, Figures)>,
+    pub(super) roles: Vec<(&'static str, MindFigures)>,
     each: Vec<EventReport>,
 }
 
@@ -38,7 +38,7 @@ struct EventReport {
     id: String,
     kind: EventKind,
     #[serde(flatten)]
-    figures: Figures,
+    figures: MindFigures,
 }
 
 impl MindsReport {
@@ -53,18 +53,18 @@ impl MindsReport {
         });
         let roles = Role::ALL.into_iter().map(|role| (role.name(), of_role(events, role)));
         let figures = |(name, members): (&'static str, Vec<Member<'_>>)| {
-            (!members.is_empty()).then(|| (name, Figures::of(&members, lapse)))
+            (!members.is_empty()).then(|| (name, MindFigures::of(&members, lapse)))
         };
         let event = |event: &MeasuredEvent| EventReport {
             id: event.id.clone(),
             kind: event.kind,
-            figures: Figures::of(&[Member::whole(event)], lapse),
+            figures: MindFigures::of(&[Member::whole(event)], lapse),
         };
         Self {
             format: FORMAT,
             run,
             lapse,
-            overall: Figures::of(&whole, lapse),
+            overall: MindFigures::of(&whole, lapse),
             kinds: kinds.filter_map(figures).collect(),
             roles: roles.filter_map(figures).collect(),
             each: events.iter().map(event).collect(),
@@ -82,7 +82,7 @@ fn of_role<'a>(events: &'a [MeasuredEvent], role: Role) -> Vec<Member<'a>> {
 }
 
 fn as_object<S: serde::Serializer>(
-    groups: &[(&'static str, Figures)],
+    groups: &[(&'static str, MindFigures)],
     serializer: S,
 ) -> Result<S::Ok, S::Error> {
     serializer.collect_map(groups.iter().map(|(name, figures)| (name, figures)))

@@ -1,9 +1,9 @@
 //! A report for people.
 
-use super::{figures::Figures, report::MindsReport};
+use super::{figures::MindFigures, report::MindsReport};
 
 /// A column: its heading, and its text for a row.
-type Column = (&'static str, fn(&Figures) -> String);
+type Column = (&'static str, fn(&MindFigures) -> String);
 
 /// A row: its name, and its text for each column.
 type Row = (&'static str, Vec<String>);
@@ -74,7 +74,7 @@ pub(super) fn print(report: &MindsReport) -> String {
 }
 
 fn table(report: &MindsReport, columns: &[Column]) -> String {
-    let row = |(name, figures): &(&'static str, Figures)| (*name, cells(figures, columns));
+    let row = |(name, figures): &(&'static str, MindFigures)| (*name, cells(figures, columns));
     let groups: [Vec<Row>; 3] = [
         vec![("all", cells(&report.overall, columns))],
         report.kinds.iter().map(row).collect(),
@@ -104,7 +104,7 @@ fn table(report: &MindsReport, columns: &[Column]) -> String {
     text
 }
 
-fn cells(figures: &Figures, columns: &[Column]) -> Vec<String> {
+fn cells(figures: &MindFigures, columns: &[Column]) -> Vec<String> {
     columns.iter().map(|(_, text)| text(figures)).collect()
 }
 

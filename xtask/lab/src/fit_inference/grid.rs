@@ -1,7 +1,7 @@
 //! SIMPLE's answers for all combinations of weights.
 
 use super::{
-    subject::{Answer, LogChoices, Subject},
+    case::{Answer, InferenceCase, LogChoices},
     weights::Weights,
 };
 use phase_model::EventKind;
@@ -15,10 +15,10 @@ pub(super) struct Grid {
 }
 
 impl Grid {
-    pub(super) fn of(subjects: &[Subject], present: &Weights) -> Self {
+    pub(super) fn of(cases: &[InferenceCase], present: &Weights) -> Self {
         let weights = Weights::all(present);
-        let answers = subjects.iter().map(|subject| answers(subject, &weights)).collect();
-        let events = subjects.iter().map(|subject| (subject.id.clone(), subject.kind)).collect();
+        let answers = cases.iter().map(|case| answers(case, &weights)).collect();
+        let events = cases.iter().map(|case| (case.id.clone(), case.kind)).collect();
         Self { weights, events, answers }
     }
 
@@ -61,19 +61,19 @@ impl Grid {
 }
 
 /// The answers to one event.
-fn answers(subject: &Subject, weights: &[Weights]) -> Vec<Answer> {
+fn answers(case: &InferenceCase, weights: &[Weights]) -> Vec<Answer> {
     // Lapse rates are few, and their logarithms are most of the work.
-    let mut known: Vec<Vec<(f64, LogChoices)>> = (0..subject.kinds()).map(|_| Vec::new()).collect();
+    let mut known: Vec<Vec<(f64, LogChoices)>> = (0..case.kinds()).map(|_| Vec::new()).collect();
     for weights in weights {
         for (kind, (known, rate)) in known.iter_mut().zip(&weights.lapse_rates).enumerate() {
             if known.iter().all(|(it, _)| it != rate) {
-                known.push((*rate, subject.log_choices(kind, *rate)));
+                known.push((*rate, case.log_choices(kind, *rate)));
             }
         }
     }
     let rate = weights.first().and_then(|weights| weights.comparison_lapse_rate);
     let compared: Option<Vec<LogChoices>> =
-        rate.map(|rate| (0..subject.kinds()).map(|kind| subject.log_choices(kind, rate)).collect());
+        rate.map(|rate| (0..case.kinds()).map(|kind| case.log_choices(kind, rate)).collect());
     let answer = |weights: &Weights| {
         let of = |(known, rate): (&'_ Vec<(f64, LogChoices)>, &f64)| {
             known.iter().position(|(it, _)| it == rate).unwrap_or_default()
@@ -81,7 +81,7 @@ fn answers(subject: &Subject, weights: &[Weights]) -> Vec<Answer> {
         let places: Vec<usize> = known.iter().zip(&weights.lapse_rates).map(of).collect();
         let choices: Vec<&LogChoices> =
             known.iter().zip(places).map(|(known, place)| &known[place].1).collect();
-        subject.answer(&choices, compared.as_deref(), weights)
+        case.answer(&choices, compared.as_deref(), weights)
     };
     weights.iter().map(answer).collect()
 }

@@ -8,13 +8,14 @@
 //! time of the log likelihood ratios of the intents.
 
 mod autocorrelation;
+mod case;
 mod grid;
 pub mod options;
 mod report;
-mod subject;
 mod weights;
 
 use crate::{check_minds::parameters, error::LabError, fit_events::KeptFigures, fit_minds::folds, json_file};
+use case::{EventEvidence, INTENTS, InferenceCase};
 use grid::Grid;
 use options::FitInference;
 use phase_cli::{
@@ -30,7 +31,6 @@ use phase_simple::{
 };
 use report::{Fold, InferenceFitReport};
 use std::sync::Arc;
-use subject::{EventEvidence, INTENTS, Subject};
 use weights::Weights;
 
 /// Runs the command.
@@ -60,7 +60,7 @@ pub fn run(arguments: &FitInference, context: &Context) -> Result<(), LabError> 
     let network = Arc::new(IntentNetwork::bundled().map_err(LabError::IntentNetwork)?);
     let made_by = format!("{} {}", json_text(&kinds, "the minds")?, planning.interval);
     let kept = KeptFigures::new(&made_by, files, context)?;
-    let evidence = |recordings: Vec<Recording>| -> Result<Vec<Subject>, LabError> {
+    let evidence = |recordings: Vec<Recording>| -> Result<Vec<InferenceCase>, LabError> {
         let all: Vec<&Recording> = recordings.iter().collect();
         let found = kept.of(
             "simulating the intents",
@@ -68,11 +68,11 @@ pub fn run(arguments: &FitInference, context: &Context) -> Result<(), LabError> 
             kinds.len() * INTENTS * AGENT_COUNT,
             |recording, tick| EventEvidence::of(recording, &kinds, &planning, &network, files.seed, tick),
         )?;
-        let subjects = recordings.iter().zip(found);
-        subjects.map(|(recording, found)| Ok(Subject::new(recording, found)?)).collect()
+        let cases = recordings.iter().zip(found);
+        cases.map(|(recording, found)| Ok(InferenceCase::new(recording, found)?)).collect()
     };
-    let subjects = evidence(recordings)?;
-    let grid = Grid::of(&subjects, &present);
+    let cases = evidence(recordings)?;
+    let grid = Grid::of(&cases, &present);
     let mut others = Vec::with_capacity(held_out.len());
     for (file, recordings) in held_out {
         others.push((file, Grid::of(&evidence(recordings)?, &present)));
@@ -87,7 +87,7 @@ pub fn run(arguments: &FitInference, context: &Context) -> Result<(), LabError> 
     let report = InferenceFitReport {
         folds: (0..folds).map(fold).collect(),
         fitted: grid.fit(&all),
-        autocorrelation_time: autocorrelation::time(&subjects, &present),
+        autocorrelation_time: autocorrelation::time(&cases, &present),
         present,
         grid: &grid,
         held_out: &others,

@@ -1,6 +1,6 @@
 //! The table of a fit.
 
-use super::{grid::Grid, subject::Answer, weights::Weights};
+use super::{case::Answer, grid::Grid, weights::Weights};
 use phase_statistics::mean;
 
 /// Weights fitted without one fold.

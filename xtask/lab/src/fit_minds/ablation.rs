@@ -1,11 +1,11 @@
 //! Worth of each parameter: the figures with it at its neutral value.
 
 use super::{
+    case::{Explanation, Method},
     evaluations::Evaluations,
     means::{Difference, Means},
     parameter::Parameter,
     report::{self, means},
-    subject::{Figures, Method},
 };
 use crate::error::LabError;
 use phase_minds::PhaseParameters;
@@ -55,7 +55,7 @@ impl Ablation {
         for parameter in parameters {
             let minds = parameter.with(base, parameter.neutral);
             let after = figures(minds, &format!("without {}", parameter.name))?;
-            let difference = |get: fn(&Figures) -> f64| Difference::of(&complete, &after, get);
+            let difference = |get: fn(&Explanation) -> f64| Difference::of(&complete, &after, get);
             without.push(Without {
                 parameter: parameter.name,
                 value: parameter.value(&base),

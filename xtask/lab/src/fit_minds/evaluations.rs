@@ -1,6 +1,6 @@
 //! Evaluations of parameters on events: none is computed twice, and all are kept in a file.
 
-use super::subject::{Figures, Method, Subject};
+use super::case::{Explanation, Method, MindsCase};
 use crate::{
     error::LabError,
     evaluations_file::{EvaluationsFile, Line},
@@ -16,10 +16,10 @@ const KEY_DIGITS: usize = 32;
 
 /// All that has been evaluated.
 pub(super) struct Evaluations<'a> {
-    subjects: &'a [Subject<'a>],
+    cases: &'a [MindsCase<'a>],
     /// The method and the program, as they enter every key.
     made_by: String,
-    known: BTreeMap<String, Figures>,
+    known: BTreeMap<String, Explanation>,
     file: Option<EvaluationsFile>,
     jobs: &'a Jobs,
     context: &'a Context,
@@ -31,16 +31,16 @@ impl<'a> Evaluations<'a> {
     /// # Errors
     /// [`CliError::Serialise`].
     pub(super) fn new(
-        subjects: &'a [Subject<'a>],
+        cases: &'a [MindsCase<'a>],
         method: Method,
-        kept: Option<(EvaluationsFile, Vec<Line<Figures>>)>,
+        kept: Option<(EvaluationsFile, Vec<Line<Explanation>>)>,
         jobs: &'a Jobs,
         context: &'a Context,
     ) -> Result<Self, CliError> {
         let made_by = json_text(&method, "the method")? + &hexadecimal(&program());
         let (file, lines) = kept.map_or_else(|| (None, Vec::new()), |(file, lines)| (Some(file), lines));
         let known = lines.into_iter().map(|line| (line.key, line.figures)).collect();
-        Ok(Self { subjects, made_by, known, file, jobs, context })
+        Ok(Self { cases, made_by, known, file, jobs, context })
     }
 
     /// The figures of each wanted pair of parameters and event, in their order. What is not known is
@@ -52,7 +52,7 @@ impl<'a> Evaluations<'a> {
         &mut self,
         wanted: &[(PhaseParameters, usize)],
         activity: &str,
-    ) -> Result<Vec<Figures>, LabError> {
+    ) -> Result<Vec<Explanation>, LabError> {
         let keys = wanted.iter().map(|(parameters, event)| self.key(*parameters, *event));
         let keys: Vec<String> = keys.collect::<Result<_, _>>()?;
         let mut seen = BTreeSet::new();
@@ -70,15 +70,15 @@ impl<'a> Evaluations<'a> {
         &self,
         tasks: &[(&String, (PhaseParameters, usize))],
         activity: &str,
-    ) -> Result<Vec<Figures>, LabError> {
+    ) -> Result<Vec<Explanation>, LabError> {
         let progress =
             self.context.progress_over(&format!("{activity}: {} evaluations", tasks.len()), tasks.len());
         let computed = make_all(self.jobs.threads(), tasks.len(), |k| {
             let (key, (parameters, event)) = &tasks[k];
-            let subject = &self.subjects[*event];
-            let Some(figures) = subject.evaluate(*parameters)? else { return Ok(None) };
+            let case = &self.cases[*event];
+            let Some(figures) = case.evaluate(*parameters)? else { return Ok(None) };
             if let Some(file) = &self.file {
-                file.add(&Line { key: (*key).clone(), event: subject.id.to_owned(), figures })?;
+                file.add(&Line { key: (*key).clone(), event: case.id.to_owned(), figures })?;
             }
             progress.step();
             Ok(Some(figures))
@@ -93,7 +93,7 @@ impl<'a> Evaluations<'a> {
     /// A name of everything that determines an evaluation.
     fn key(&self, parameters: PhaseParameters, event: usize) -> Result<String, CliError> {
         let parameters = json_text(&parameters, "a set of parameters")?;
-        let all = format!("{} {} {parameters}", self.made_by, self.subjects[event].digest);
+        let all = format!("{} {} {parameters}", self.made_by, self.cases[event].digest);
         let mut key = hexadecimal(&sha256(all.as_bytes()));
         key.truncate(KEY_DIGITS);
         Ok(key)

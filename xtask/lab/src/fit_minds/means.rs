@@ -1,6 +1,6 @@
 //! Means over events.
 
-use super::{evaluations::Evaluations, subject::Figures};
+use super::{case::Explanation, evaluations::Evaluations};
 use crate::error::LabError;
 use phase_minds::PhaseParameters;
 use phase_statistics::{mean, standard_error};
@@ -46,8 +46,9 @@ impl Means {
     }
 
     /// The means of some figures; zero without any.
-    pub(super) fn over(figures: &[Figures]) -> Self {
-        let of = |get: fn(&Figures) -> f64| mean(&figures.iter().map(get).collect::<Vec<_>>()).unwrap_or(0.0);
+    pub(super) fn over(figures: &[Explanation]) -> Self {
+        let of =
+            |get: fn(&Explanation) -> f64| mean(&figures.iter().map(get).collect::<Vec<_>>()).unwrap_or(0.0);
         Self {
             events: figures.len(),
             log_posterior: of(|it| it.log_posterior),
@@ -60,7 +61,7 @@ impl Means {
 
 impl Difference {
     /// By how much a figure is greater in `after` than in `before`, which are about the same events.
-    pub(super) fn of(before: &[Figures], after: &[Figures], get: fn(&Figures) -> f64) -> Self {
+    pub(super) fn of(before: &[Explanation], after: &[Explanation], get: fn(&Explanation) -> f64) -> Self {
         let each: Vec<f64> =
             before.iter().zip(after).map(|(before, after)| get(after) - get(before)).collect();
         Self { mean: mean(&each).unwrap_or(0.0), standard_error: standard_error(&each).unwrap_or(0.0) }
@@ -70,10 +71,10 @@ impl Difference {
 #[cfg(test)]
 mod tests {
     use super::{Difference, Means};
-    use crate::fit_minds::subject::Figures;
+    use crate::fit_minds::case::Explanation;
 
-    fn figures(log_posterior: f64) -> Figures {
-        Figures { log_posterior, log_likelihood: -1.0, chance: 0.5, cpu_seconds: 0.001 }
+    fn figures(log_posterior: f64) -> Explanation {
+        Explanation { log_posterior, log_likelihood: -1.0, chance: 0.5, cpu_seconds: 0.001 }
     }
 
     #[test]

@@ -2,10 +2,11 @@
 //!
 //! The fit maximises how well the truth stands out: the log posterior of the true goals and attitudes among
 //! all hypotheses. A mind that makes what was done likelier under every hypothesis alike would gain
-//! likelihood and tell nobody's goals; the log likelihood under the truth is reported beside it. `subject`
+//! likelihood and tell nobody's goals; the log likelihood under the truth is reported beside it. `case`
 //! evaluates one event, `search` changes the parameters, and every fold of the events is held out of one fit.
 
 mod ablation;
+mod case;
 mod evaluations;
 pub(crate) mod folds;
 mod means;
@@ -13,10 +14,10 @@ pub mod options;
 mod parameter;
 mod report;
 mod search;
-mod subject;
 
 use crate::{check_minds, error::LabError, evaluations_file::EvaluationsFile, json_file};
 use ablation::Ablation;
+use case::{Method, MindsCase};
 use evaluations::Evaluations;
 use options::FitMinds;
 use parameter::{PARAMETERS, Parameter};
@@ -30,7 +31,6 @@ use phase_minds::{MindParameters, PhaseParameters};
 use phase_runs::{error::RunError, parallel::make_all, words};
 use search::Fit;
 use std::path::Path;
-use subject::{Method, Subject};
 
 /// Runs the command.
 ///
@@ -59,10 +59,10 @@ pub fn run(arguments: &FitMinds, context: &Context) -> Result<(), LabError> {
     interrupt::listen();
     let observed = observed(&recordings)?;
     let method = Method::new(arguments.thin.into(), arguments.simulations as usize, arguments.seed);
-    let subjects = prepare(&recordings, &observed, method, start.particles, arguments, context)?;
+    let cases = prepare(&recordings, &observed, method, start.particles, arguments, context)?;
     let kept = arguments.out.as_deref().map(EvaluationsFile::beside).transpose()?;
-    let mut evaluations = Evaluations::new(&subjects, method, kept, &arguments.jobs, context)?;
-    let everything: Vec<usize> = (0..subjects.len()).collect();
+    let mut evaluations = Evaluations::new(&cases, method, kept, &arguments.jobs, context)?;
+    let everything: Vec<usize> = (0..cases.len()).collect();
     let (events, held_out) = everything.split_at(own);
     if arguments.ablation {
         let ablation = Ablation::of(start, &chosen, &everything, method, &mut evaluations)?;
@@ -70,7 +70,7 @@ pub fn run(arguments: &FitMinds, context: &Context) -> Result<(), LabError> {
         print_result(ablation.table().trim_end())?;
         return Ok(());
     }
-    let mut fits = fits(&subjects[..own], events, start, arguments);
+    let mut fits = fits(&cases[..own], events, start, arguments);
     search::run(&mut fits, &chosen, arguments.rounds.into(), &mut evaluations, context)?;
     let text = report::of(&fits, start, &chosen, held_out, method, &mut evaluations)?;
     if let Some(all) = fits.last() {
@@ -134,26 +134,21 @@ fn prepare<'a>(
     particles: usize,
     arguments: &FitMinds,
     context: &Context,
-) -> Result<Vec<Subject<'a>>, LabError> {
+) -> Result<Vec<MindsCase<'a>>, LabError> {
     let activity = format!("preparing {}", words::events(recordings.len()));
     let progress = context.progress_over(&activity, recordings.len());
-    let subjects = make_all(arguments.jobs.threads(), recordings.len(), |k| {
-        let subject = Subject::new(&recordings[k], &observed[k], method, particles)?;
+    let cases = make_all(arguments.jobs.threads(), recordings.len(), |k| {
+        let case = MindsCase::new(&recordings[k], &observed[k], method, particles)?;
         progress.step();
-        Ok(Some(subject))
+        Ok(Some(case))
     })?;
-    subjects.ok_or(LabError::Interrupted)
+    cases.ok_or(LabError::Interrupted)
 }
 
 /// One fit without each fold, and at last one on all events.
-fn fits(
-    subjects: &[Subject<'_>],
-    events: &[usize],
-    start: PhaseParameters,
-    arguments: &FitMinds,
-) -> Vec<Fit> {
+fn fits(cases: &[MindsCase<'_>], events: &[usize], start: PhaseParameters, arguments: &FitMinds) -> Vec<Fit> {
     let folds = usize::from(arguments.folds);
-    let named: Vec<_> = subjects.iter().map(|subject| (subject.id, subject.kind)).collect();
+    let named: Vec<_> = cases.iter().map(|case| (case.id, case.kind)).collect();
     let fold_of = folds::assign(&named, folds, arguments.seed);
     let mut fits: Vec<Fit> = (0..folds)
         .map(|fold| {

@@ -1,11 +1,11 @@
 //! The tables of a fit.
 
 use super::{
+    case::{Explanation, Method},
     evaluations::Evaluations,
     means::{Difference, Means},
     parameter::Parameter,
     search::Fit,
-    subject::{Figures, Method},
 };
 use crate::error::LabError;
 use phase_minds::PhaseParameters;
@@ -88,14 +88,14 @@ pub(super) fn means(it: &Means) -> String {
 }
 
 /// Difference between figures of the same events, in words.
-pub(super) fn gain(before: &[Figures], after: &[Figures]) -> String {
+pub(super) fn gain(before: &[Explanation], after: &[Explanation]) -> String {
     let one = |get| {
         let Difference { mean, standard_error } = Difference::of(before, after, get);
         format!("{mean:+.3} ± {standard_error:.3}")
     };
     format!(
         "log post {}, ll {}, chance {}",
-        one(|it: &Figures| it.log_posterior),
+        one(|it: &Explanation| it.log_posterior),
         one(|it| it.log_likelihood),
         one(|it| it.chance)
     )

@@ -131,3 +131,100 @@ pub(super) fn alter_member(text: &str, member: &str, random: &mut Pcg64Mcg) -> O
     let mut value: Value = serde_json::from_str(content).ok()?;
     alter(&mut value, random).then(|| text.replacen(content, &value.to_string(), 1))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{alter, alter_member, count, flip, insert, space};
+    use phase_model::random::{Pcg64Mcg, Purpose, stream};
+    use serde_json::{Value, json};
+
+    /// Does something a thousand times, with other random numbers each time.
+    fn often(mut something: impl FnMut(&mut Pcg64Mcg)) {
+        (0..1000).for_each(|number| something(&mut stream(1, Purpose::Event, number)));
+    }
+
+    /// Leaves of two values of one shape that differ; `None` if the shapes do.
+    fn differing(a: &Value, b: &Value) -> Option<usize> {
+        match (a, b) {
+            (Value::Array(a), Value::Array(b)) if a.len() == b.len() => {
+                a.iter().zip(b).map(|(a, b)| differing(a, b)).sum()
+            }
+            (Value::Object(a), Value::Object(b)) if a.keys().eq(b.keys()) => {
+                a.values().zip(b.values()).map(|(a, b)| differing(a, b)).sum()
+            }
+            (Value::Array(_) | Value::Object(_), _) | (_, Value::Array(_) | Value::Object(_)) => None,
+            _ => Some(usize::from(a != b)),
+        }
+    }
+
+    #[test]
+    fn one_bit_is_flipped() {
+        often(|random| {
+            let before = b"an event".to_vec();
+            let mut after = before.clone();
+            assert!(flip(&mut after, random));
+            let bits = before.iter().zip(&after).map(|(a, b)| (a ^ b).count_ones()).sum::<u32>();
+            assert_eq!(bits, 1);
+        });
+        assert!(!flip(&mut [], &mut stream(1, Purpose::Event, 0)), "nothing is there");
+    }
+
+    #[test]
+    fn stray_bytes_leave_the_others_in_order() {
+        often(|random| {
+            let before = b"an event".to_vec();
+            let mut after = before.clone();
+            insert(&mut after, random);
+            let added = after.len() - before.len();
+            assert!((1..=5).contains(&added));
+            let cut = |at: usize| [&after[..at], &after[at + added..]].concat();
+            assert!((0..=before.len()).any(|at| cut(at) == before), "{after:?}");
+        });
+    }
+
+    #[test]
+    fn one_leaf_becomes_another() {
+        let value = json!({
+            "a": [0, -7, u64::MAX, 0.25, 1.0e-9, 1e300], "b": {"c": "up", "d": null}, "e": true, "f": [[], {}],
+        });
+        assert_eq!(count(&value), 9);
+        let mut met = std::collections::BTreeSet::new();
+        often(|random| {
+            let mut changed = value.clone();
+            assert!(alter(&mut changed, random));
+            assert_eq!(differing(&value, &changed), Some(1), "{changed}");
+            met.extend((0..6).filter(|&k| changed["a"][k] != value["a"][k]).map(|k| k.to_string()));
+            met.extend(
+                ["b", "e"].into_iter().filter(|name| changed[*name] != value[*name]).map(String::from),
+            );
+        });
+        assert_eq!(met.len(), 8, "every leaf has its turn: {met:?}");
+        assert!(!alter(&mut json!([{}, []]), &mut stream(1, Purpose::Event, 0)), "there is no leaf");
+    }
+
+    #[test]
+    fn white_space_changes_nothing_that_is_read() {
+        let before = json!({"format": "f", "rows": [[1.5, 2], []], "id": "a"});
+        often(|random| {
+            let mut text = before.to_string();
+            assert!(space(&mut text, random));
+            assert_eq!(text.len(), before.to_string().len() + 1);
+            assert_eq!(serde_json::from_str::<Value>(&text).expect("JSON"), before, "{text}");
+        });
+    }
+
+    #[test]
+    fn one_member_is_changed_and_the_others_stay() {
+        let text = "{\"format\":\"f\",\n\"seed\":7,\n\"rows\":[1,2,3]}\n";
+        let before: Value = serde_json::from_str(text).expect("JSON");
+        often(|random| {
+            for member in ["seed", "rows"] {
+                let changed = alter_member(text, member, random).expect("it is there");
+                let after: Value = serde_json::from_str(&changed).expect("JSON");
+                assert_eq!(differing(&before, &after), Some(1), "{changed}");
+                assert_ne!(before[member], after[member], "{changed}");
+            }
+            assert_eq!(alter_member(text, "nobody", random), None);
+        });
+    }
+}

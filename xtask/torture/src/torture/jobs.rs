@@ -95,3 +95,38 @@ pub(super) const JOBS: [Job; 8] = [
         meanwhile: Some("weights.safetensors.checkpoint"),
     },
 ];
+
+#[cfg(test)]
+mod tests {
+    use super::{JOBS, PRESET};
+    use clap::Parser;
+    use phase_cli::cli::Cli;
+    use phase_dataset::preset::Preset;
+    use std::collections::BTreeSet;
+
+    #[test]
+    fn the_program_has_every_command_with_its_options() {
+        for job in &JOBS {
+            for line in job.prepare.iter().chain([&job.command]) {
+                let parsed = Cli::try_parse_from(["phase"].into_iter().chain(line.split_whitespace()));
+                assert!(parsed.is_ok(), "{}: {}", job.name, parsed.expect_err("an error"));
+            }
+        }
+        let names: BTreeSet<&str> = JOBS.iter().map(|job| job.name).collect();
+        assert_eq!(names.len(), JOBS.len(), "names tell commands apart");
+        assert!(Preset::parse(PRESET.0, PRESET.1).is_ok());
+    }
+
+    #[test]
+    fn what_a_command_reads_is_made_before_and_what_it_makes_is_looked_at() {
+        for job in &JOBS {
+            let read = job.command.split_whitespace().filter_map(|word| word.strip_prefix("{in}/"));
+            for name in read {
+                let makes = |line: &&str| line.ends_with(&format!("--out {name}"));
+                assert!(job.prepare.iter().any(makes), "{}: {name}", job.name);
+            }
+            let written: Vec<&str> = job.command.split_whitespace().skip_while(|it| *it != "--out").collect();
+            assert!(written.get(1).is_some_and(|out| out.starts_with("out")), "{}", job.name);
+        }
+    }
+}

@@ -33,7 +33,7 @@ impl<'a> Member<'a> {
 
 /// The figures of some members, as in the file. What was not measured is null.
 #[derive(Clone, PartialEq, Debug, Serialize)]
-pub(super) struct Figures {
+pub(super) struct MindFigures {
     /// Events.
     pub(super) events: usize,
     /// Decisions: steps of each agent.
@@ -60,7 +60,7 @@ pub(super) struct Figures {
     pub(super) open_loop: OpenLoopFigures,
 }
 
-impl Figures {
+impl MindFigures {
     /// The figures of some members with this fitted lapse rate.
     pub(super) fn of(members: &[Member<'_>], lapse: f64) -> Self {
         let chances: Vec<Chance> = members

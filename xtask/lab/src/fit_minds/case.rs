@@ -43,9 +43,9 @@ impl Method {
     }
 }
 
-/// Figures of one event: how well minds explain it.
+/// How well minds explain one event.
 #[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
-pub(super) struct Figures {
+pub(super) struct Explanation {
     /// ln of the posterior probability of the true goals and attitudes among all hypotheses (nat).
     pub(super) log_posterior: f64,
     /// Mean log likelihood of what an agent did in a step under the truth (nat).
@@ -57,7 +57,7 @@ pub(super) struct Figures {
 }
 
 /// An event whose labels are known, prepared for many evaluations.
-pub(super) struct Subject<'a> {
+pub(super) struct MindsCase<'a> {
     /// Its id.
     pub(super) id: &'a str,
     /// Its kind.
@@ -72,7 +72,7 @@ pub(super) struct Subject<'a> {
     steps: Vec<usize>,
 }
 
-impl<'a> Subject<'a> {
+impl<'a> MindsCase<'a> {
     /// Prepares an event, of which `observed` is what an observer sees, for minds with so many particles.
     ///
     /// # Errors
@@ -118,7 +118,7 @@ impl<'a> Subject<'a> {
     ///
     /// # Errors
     /// Invalid parameters of the agents' search.
-    pub(super) fn evaluate(&self, parameters: PhaseParameters) -> Result<Option<Figures>, RunError> {
+    pub(super) fn evaluate(&self, parameters: PhaseParameters) -> Result<Option<Explanation>, RunError> {
         let failed = |error| RunError::Method { id: self.id.to_owned(), source: MethodError::new(error) };
         let minds = PhaseParameters { simulations: self.method.simulations, ..parameters };
         let objects = self.prepared.observed().object_sizes().len();
@@ -152,7 +152,7 @@ impl<'a> Subject<'a> {
         let goals = physical_goals(AgentId::ZERO, objects).len();
         let posterior = Posterior::new(joint_logs(&weighted, self.truth.strengths, goals));
         let chance_sum: f64 = under_truth.iter().map(|chance| chance.mind).sum();
-        Ok(Some(Figures {
+        Ok(Some(Explanation {
             log_posterior: Recognition::of(&posterior, &self.truth).log_posterior,
             log_likelihood: log_likelihood(&under_truth, LAPSE).unwrap_or(0.0),
             chance: chance_sum / under_truth.len().max(1) as f64,

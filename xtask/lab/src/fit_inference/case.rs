@@ -18,7 +18,7 @@ use std::sync::Arc;
 pub(super) const INTENTS: usize = 42;
 
 /// An event whose labels are known, with the evidence on all intents.
-pub(super) struct Subject {
+pub(super) struct InferenceCase {
     /// Its id.
     pub(super) id: String,
     /// Its kind.
@@ -90,7 +90,7 @@ impl EventEvidence {
     }
 }
 
-impl Subject {
+impl InferenceCase {
     /// An event with the evidence on it.
     pub(super) fn new(recording: &Recording, evidence: EventEvidence) -> Result<Self, RunError> {
         let failed = |error| RunError::Method { id: recording.id.clone(), source: MethodError::new(error) };
