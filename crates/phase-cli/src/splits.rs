@@ -3,12 +3,11 @@
 use crate::{context::Context, error::CliError, output::Output};
 use clap::Args;
 use phase_dataset::{
-    manifest::{MANIFEST_FILE, Manifest},
     split_list::SplitList,
-    splits::{self, Item, Rule, Split},
+    splits::{self, Rule},
 };
 use phase_files::FileError;
-use phase_runs::source::EventInput;
+use phase_runs::source::items_and_splits;
 use serde_json::json;
 use std::path::PathBuf;
 
@@ -37,7 +36,7 @@ pub struct Splits {
 /// # Errors
 /// Any [`CliError`]; [`CliError::RulesBroken`] if the split breaks a rule.
 pub fn run(arguments: &Splits, context: &Context) -> Result<(), CliError> {
-    let (items, own) = events(arguments, context)?;
+    let (items, own) = items_and_splits(&arguments.events, context)?;
     let parts = match (&arguments.make, &arguments.splits) {
         (Some(file), _) => {
             let parts = splits::make(&items, arguments.seed);
@@ -72,26 +71,6 @@ pub fn run(arguments: &Splits, context: &Context) -> Result<(), CliError> {
         0 => Ok(()),
         broken => Err(CliError::RulesBroken { events: arguments.events.clone(), broken }),
     }
-}
-
-/// The events of a dataset or file, and their splits if all have one.
-fn events(arguments: &Splits, context: &Context) -> Result<(Vec<Item>, Option<Vec<Split>>), CliError> {
-    let manifest = arguments.events.join(MANIFEST_FILE);
-    if manifest.is_file() {
-        let manifest = Manifest::read(&manifest)?;
-        let parts = manifest.events.iter().map(|event| event.split).collect();
-        return Ok((manifest.items(), parts));
-    }
-    let source = EventInput::open(&arguments.events, &[], context)?;
-    let item = |index: usize| {
-        let recording = source.load(index)?;
-        let scene = &recording.scene;
-        let kind = scene.kind;
-        let goals = scene.goals();
-        let base = scene.layout.base();
-        Ok(Item { id: recording.id.clone(), kind, goals, base })
-    };
-    Ok(((0..source.len()).map(item).collect::<Result<_, CliError>>()?, None))
 }
 
 fn line(rule: &Rule) -> String {

@@ -4,7 +4,7 @@
 //!   shards.
 //! - [`simulate::Simulations`] simulates the scenes of a file.
 //! - [`verify`] checks that a dataset is whole and that its files are what follows from its preset and seed;
-//!   [`export`] packs it for training programs.
+//!   [`export`] packs it for training programs; [`figures`] compares its figures with the paper's.
 //! - [`eval::Evaluation`] evaluates a method; [`benchmark::BenchmarkRun`]
 //!   evaluates all of them.
 //! - `train::Training` trains a network (feature `networks`).
@@ -67,6 +67,7 @@ pub mod error;
 pub mod eval;
 pub mod event_writer;
 pub mod export;
+pub mod figures;
 mod gallery_writer;
 pub mod gen_dataset;
 pub mod interrupt;

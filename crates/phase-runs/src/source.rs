@@ -5,6 +5,7 @@ use phase_dataset::{
     manifest::{MANIFEST_FILE, Manifest},
     phase_events,
     shard::SHARD_FILE,
+    splits::{Item, Split},
     summary::{SUMMARY_FILE, SimulationSummary},
 };
 use phase_event::Recording;
@@ -214,4 +215,30 @@ fn check_ids<'a>(
         Some(id) => Err(RunError::unknown_id(file, id, known)),
         None => Ok(()),
     }
+}
+
+/// The events of a dataset or file, and their splits if all have one.
+///
+/// # Errors
+/// If the events cannot be used.
+pub fn items_and_splits(
+    events: &Path,
+    listener: &dyn Listener,
+) -> Result<(Vec<Item>, Option<Vec<Split>>), RunError> {
+    let manifest = events.join(MANIFEST_FILE);
+    if manifest.is_file() {
+        let manifest = Manifest::read(&manifest)?;
+        let parts = manifest.events.iter().map(|event| event.split).collect();
+        return Ok((manifest.items(), parts));
+    }
+    let source = EventInput::open(events, &[], listener)?;
+    let item = |index: usize| {
+        let recording = source.load(index)?;
+        let scene = &recording.scene;
+        let kind = scene.kind;
+        let goals = scene.goals();
+        let base = scene.layout.base();
+        Ok(Item { id: recording.id.clone(), kind, goals, base })
+    };
+    Ok(((0..source.len()).map(item).collect::<Result<_, RunError>>()?, None))
 }
