@@ -7,7 +7,7 @@ use phase_model::{
 use proptest::prelude::*;
 
 fn body() -> impl Strategy<Value = Body> {
-    (6.0..26.0_f32, 0.0..20.0_f32, -9.0..9.0_f32, prop::array::uniform3(-5.0..5.0_f32)).prop_map(
+    (6.0..26.0_f32, 2.0..22.0_f32, -9.0..9.0_f32, prop::array::uniform3(-5.0..5.0_f32)).prop_map(
         |(x, y, angle, [u, v, turn])| Body {
             position: Vec2::new(x, y),
             velocity: Vec2::new(u, v),
