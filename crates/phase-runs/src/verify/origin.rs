@@ -212,7 +212,7 @@ fn plan(folder: &Path, checks: &Checks) -> Result<Result<DatasetPlan, RunError>,
     let generation = Generation::of_command(&text).ok_or("a card, whose command can be given")?;
     let preset = &generation.preset;
     if let Some(file) = &checks.preset {
-        return Ok(Plan::with_preset_of(&generation, file));
+        return Ok(DatasetPlan::with_preset_of(&generation, file));
     }
     if !phase_data::PRESETS.iter().any(|(name, _)| name == preset) {
         // The card may name any file, and is not believed.

@@ -111,8 +111,8 @@ fn nudged(number: &Number, random: &mut Pcg64Mcg) -> Number {
         return Number::from(whole - 1);
     }
     let value: f64 = number.as_f64().unwrap_or_default();
-    let near = if random.random_bool(0.5) {
-        let single = value as f32;
+    let single = value as f32;
+    let near = if single.is_finite() && random.random_bool(0.5) {
         f64::from(f32::from_bits(single.to_bits() ^ 1))
     } else {
         (value * 1.01 * 1e4).round() / 1e4 + 1e-4
