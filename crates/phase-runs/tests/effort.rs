@@ -64,7 +64,8 @@ fn settings_that_differ_read_differently() {
         Effort { foresight: Some(Foresight::Points), ..base },
         Effort { minds: minds(MindKind::Published), ..base },
         Effort { minds: minds(MindKind::Published), foresight: Some(Foresight::Points), ..base },
-        Effort { minds: MindChoice { kind: None, one_way_turns: true }, ..base },
+        Effort { minds: MindChoice { one_way_turns: true, ..base.minds }, ..base },
+        Effort { minds: MindChoice { strongest_coasts: true, ..base.minds }, ..base },
     ];
     let told: Vec<String> = efforts.iter().map(|it| description(&it.settings().expect("settings"))).collect();
     for (k, one) in told.iter().enumerate() {
