@@ -5,10 +5,15 @@
 use phase_files::plain_reason;
 use phase_model::foreign;
 use std::{
+    cell::Cell,
     fmt::Display,
     io::{self, Write},
 };
 use thiserror::Error;
+
+thread_local! {
+    static SILENT: Cell<bool> = const { Cell::new(false) };
+}
 
 /// A result that nobody got, and so none.
 #[derive(Debug, Error)]
@@ -20,8 +25,20 @@ pub struct Unprinted(#[from] pub io::Error);
 /// # Errors
 /// [`Unprinted`].
 pub fn write_result(text: &str) -> Result<(), Unprinted> {
+    if SILENT.get() {
+        return Ok(());
+    }
     let mut out = io::stdout().lock();
     Ok(out.write_all(text.as_bytes()).and_then(|()| out.flush())?)
+}
+
+/// Runs a command whose results are not printed, for programs that this one is a part of. Stdout is the whole
+/// process's, so only what this thread prints is left out.
+pub fn without_results<T>(command: impl FnOnce() -> T) -> T {
+    let before = SILENT.replace(true);
+    let done = command();
+    SILENT.set(before);
+    done
 }
 
 /// Writes a line to stderr, where progress, notes and errors go. What others wrote in it steers no terminal.

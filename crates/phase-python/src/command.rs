@@ -1,7 +1,7 @@
 //! The command line from within Python.
 
-use crate::error::raise;
-use phase_cli::{PHASE, cli::Command, interrupt::leave_to_host, program};
+use crate::error::{raise, raise_with_code};
+use phase_cli::{PHASE, cli::Command, console::without_results, interrupt::leave_to_host, program};
 use phase_runs::interrupt;
 use pyo3::prelude::*;
 use std::{ffi::OsString, thread, time::Duration};
@@ -9,13 +9,17 @@ use std::{ffi::OsString, thread, time::Duration};
 /// Time between two questions to Python whether it was interrupted.
 const POLL: Duration = Duration::from_millis(100);
 
-/// Runs a command of `phase`, as from its command line without the program's name. An interruption of Python
-/// stops it as Ctrl-C does there: what is finished is kept.
+/// Runs a command of `phase`, as from its command line without the program's name; with `silent` it prints
+/// no results. An interruption of Python stops it as Ctrl-C does there: what is finished is kept.
 #[pyfunction]
-pub(crate) fn run(py: Python<'_>, arguments: Vec<String>) -> PyResult<()> {
+pub(crate) fn run(py: Python<'_>, arguments: Vec<OsString>, silent: bool) -> PyResult<()> {
     leave_to_host();
-    let arguments = core::iter::once("phase".to_owned()).chain(arguments).map(OsString::from);
-    let worker = thread::spawn(move || program::run_with::<Command>(PHASE, arguments));
+    let arguments = core::iter::once(OsString::from("phase")).chain(arguments);
+    let command = move || program::run_with::<Command>(PHASE, arguments);
+    let command = move || if silent { without_results(command) } else { command() };
+    // A pool of its own: the one that all of a process share has no threads in a forked child.
+    let pool = rayon::ThreadPoolBuilder::new().build().map_err(raise)?;
+    let worker = thread::spawn(move || pool.install(command));
     let mut interrupted = None;
     while !worker.is_finished() {
         py.detach(|| thread::sleep(POLL));
@@ -25,12 +29,13 @@ pub(crate) fn run(py: Python<'_>, arguments: Vec<String>) -> PyResult<()> {
         }
     }
     let outcome = worker.join();
-    interrupt::clear();
     if let Some(error) = interrupted {
+        // The request was for every run of this process; another that ends by it must not forget it.
+        interrupt::clear();
         return Err(error);
     }
     match outcome {
-        Ok(result) => result.map_err(|failure| raise(failure.sentence)),
+        Ok(result) => result.map_err(|failure| raise_with_code(failure.sentence, failure.exit_code)),
         Err(_) => Err(raise("the command failed; this is a defect of PHASE")),
     }
 }

@@ -1,11 +1,16 @@
 //! Pictures and videos.
 
-use crate::{error::raise, event::Event, worlds::Worlds};
+use crate::{
+    error::raise,
+    event::Event,
+    worlds::{Worlds, lent},
+};
 use numpy::{PyArray1, PyArray3, PyArrayMethods};
+use phase_files::atomic;
 use phase_model::{PhysicsConfig, State, arena::FRAMES_PER_SECOND};
 use phase_render::{Frame, SceneRenderer, Style, VideoEncoder};
 use pyo3::prelude::*;
-use std::{fs::File, io::BufWriter, path::PathBuf};
+use std::path::{Path, PathBuf};
 
 /// Draws worlds and events, seen from above.
 #[pyclass(frozen, module = "phase_events._native")]
@@ -23,14 +28,19 @@ impl Renderer {
         Ok(Self { style })
     }
 
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> (Bound<'py, PyAny>, (u32,)) {
+        (slf.get_type().into_any(), (slf.get().style.side,))
+    }
+
     /// A world as it is now: (side, side, 3), red, green, blue, 0 to 255. `PhaseError` if there is no such
     /// world.
     fn world<'py>(
         &self,
         py: Python<'py>,
-        worlds: PyRef<'py, Worlds>,
+        worlds: &Bound<'py, Worlds>,
         world: i64,
     ) -> PyResult<Bound<'py, PyArray3<u8>>> {
+        let worlds = lent(worlds)?;
         let (physics, state) = worlds.view(world)?;
         self.array(py, &self.frame(physics, state)?)
     }
@@ -52,7 +62,8 @@ impl Renderer {
     }
 
     /// Writes an event as an .mp4 (H.264) with 20 frames a second: five a step, or for a recording, which has
-    /// no substeps, one a step shown five times. `PhaseError` if the file cannot be written.
+    /// no substeps, one a step shown five times. `PhaseError` for an odd side, and if the file
+    /// cannot be written; an older one of that name is unchanged then.
     fn video(&self, py: Python<'_>, event: PyRef<'_, Event>, path: PathBuf) -> PyResult<()> {
         let recording = event.recording.clone();
         py.detach(|| {
@@ -82,15 +93,14 @@ impl Renderer {
         PyArray1::from_vec(py, pixels).reshape(shape)
     }
 
-    fn write(&self, physics: &PhysicsConfig, states: Vec<State>, path: &PathBuf) -> Result<(), String> {
+    fn write(&self, physics: &PhysicsConfig, states: Vec<State>, path: &Path) -> Result<(), String> {
         let renderer = SceneRenderer::new(physics, self.style).map_err(|error| error.to_string())?;
-        let file = File::create(path).map_err(|error| format!("{}: {error}", path.display()))?;
-        let writer = BufWriter::new(file);
-        let video = VideoEncoder::new(writer, renderer.width(), renderer.height(), FRAMES_PER_SECOND);
+        let video = VideoEncoder::new(Vec::new(), renderer.width(), renderer.height(), FRAMES_PER_SECOND);
         let mut video = video.map_err(|error| error.to_string())?;
         for state in states {
             video.push(&renderer.frame(&state, None)).map_err(|error| error.to_string())?;
         }
-        video.finish().map(|_| ()).map_err(|error| error.to_string())
+        let bytes = video.finish().map_err(|error| error.to_string())?;
+        atomic::write(path, &bytes).map_err(|error| error.to_string())
     }
 }

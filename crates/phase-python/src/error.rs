@@ -15,3 +15,11 @@ create_exception!(
 pub(crate) fn raise(error: impl Display) -> PyErr {
     PhaseError::new_err(error.to_string())
 }
+
+/// As [`raise`], with the exit code of the command line in the attribute `exit_code`.
+pub(crate) fn raise_with_code(error: impl Display, exit_code: u8) -> PyErr {
+    let error = raise(error);
+    // Without the attribute the exception says the same.
+    let _ = Python::attach(|py| error.value(py).setattr("exit_code", exit_code));
+    error
+}

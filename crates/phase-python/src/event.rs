@@ -4,6 +4,7 @@ use crate::{arrays::row_of, error::raise, mind::read_parameters, scene::Scene, w
 use core::ops::ControlFlow;
 use numpy::{PyArray2, PyArray3};
 use phase_event::{Recording, Thought, from_json, to_json};
+use phase_files::atomic;
 use phase_model::arena::SUBSTEPS;
 use phase_runs::{engine::GENERATOR, event_writer::settings_value, listener::Silent, source::EventInput};
 use phase_sim::{SimulationSettings, simulate_with};
@@ -18,6 +19,27 @@ pub(crate) struct Event {
 
 #[pymethods]
 impl Event {
+    /// The event of a document in the format phase-events/1 that has one. `PhaseError` names the field and
+    /// the rule if it has none, or several.
+    #[new]
+    fn from_json(py: Python<'_>, text: &str) -> PyResult<Self> {
+        let mut read = Self::list_from_json(py, text)?;
+        let event = read.pop().filter(|_| read.is_empty());
+        event.ok_or_else(|| raise(format!("one event is expected, not {}", read.len())))
+    }
+
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, (String,))> {
+        Ok((slf.get_type().into_any(), (slf.get().to_json()?,)))
+    }
+
+    fn __copy__(slf: Bound<'_, Self>) -> Bound<'_, Self> {
+        slf
+    }
+
+    fn __deepcopy__<'py>(slf: Bound<'py, Self>, _memo: &Bound<'py, PyAny>) -> Bound<'py, Self> {
+        slf
+    }
+
     /// The events of a document in the format phase-events/1. `PhaseError` names the field and the rule if it
     /// is none.
     #[staticmethod]
@@ -112,6 +134,8 @@ impl Event {
 /// The events of a file or folder, read one by one.
 #[pyclass(frozen, module = "phase_events._native")]
 pub(crate) struct EventSource {
+    /// Where it is, whatever the current folder.
+    path: PathBuf,
     source: EventInput,
 }
 
@@ -121,7 +145,13 @@ impl EventSource {
     #[new]
     fn open(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
         let source = py.detach(|| EventInput::open(&path, &[], &Silent)).map_err(raise)?;
-        Ok(Self { source })
+        let path = std::path::absolute(path).map_err(raise)?;
+        Ok(Self { path, source })
+    }
+
+    /// A copy, also one that is pickled, opens the file or folder again.
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> (Bound<'py, PyAny>, (PathBuf,)) {
+        (slf.get_type().into_any(), (slf.get().path.clone(),))
     }
 
     fn __len__(&self) -> usize {
@@ -174,6 +204,12 @@ pub(crate) fn simulate(
     let recording = Recording::of_event(id, event, GENERATOR.into(), settings);
     // An event is the same wherever it comes from: it is written and read. That checks its id, too.
     let text = to_json(&[recording]).map_err(raise)?;
-    let mut read = Event::list_from_json(py, &text)?;
-    read.pop().ok_or_else(|| raise("the event cannot be read back"))
+    Event::from_json(py, &text)
+}
+
+/// Writes a text file, whole or not at all. `PhaseError` if it cannot be written; an older one of that name is
+/// unchanged then.
+#[pyfunction]
+pub(crate) fn write_text(path: PathBuf, text: &str) -> PyResult<()> {
+    atomic::write(&path, text.as_bytes()).map_err(raise)
 }

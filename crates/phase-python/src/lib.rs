@@ -9,7 +9,8 @@
 //! minds that play in an environment make the event that [`phase_sim::simulate`] makes. The trade-off is a
 //! longer vector than most learners need.
 //!
-//! The interpreter's lock is released in every call that computes.
+//! The interpreter's lock is released in every call that computes. Everything can be copied and pickled: what
+//! changes keeps its past and repeats it ([`worlds`], [`mind`], [`observer`]).
 
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
@@ -22,6 +23,7 @@ mod event;
 mod mind;
 mod observer;
 mod perceive;
+mod pools;
 mod scene;
 mod worlds;
 
@@ -49,6 +51,7 @@ fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(perceive::forecast, module)?)?;
     module.add_function(wrap_pyfunction!(perceive::methods, module)?)?;
     module.add_function(wrap_pyfunction!(command::run, module)?)?;
+    module.add_function(wrap_pyfunction!(event::write_text, module)?)?;
     Ok(())
 }
 

@@ -1,26 +1,45 @@
 //! SIMPLE while an event is watched.
 
-use crate::{arrays::check_shape, error::raise, scene::Scene};
+use crate::{
+    arrays::{reading, rows},
+    error::raise,
+    scene::Scene,
+};
 use core::ops::ControlFlow;
-use numpy::{PyReadonlyArray2, PyUntypedArrayMethods};
+use numpy::PyArray2;
 use phase_eval::goals::Answer;
 use phase_event::ObservedEvent;
 use phase_model::{Body, MAX_ENTITIES, Vec2};
 use phase_simple::{Budget, Inference, Observer, Simple};
-use pyo3::prelude::*;
+use pyo3::{PyTypeInfo, prelude::*};
 use serde_json::json;
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 
 /// Columns of a row of an event: x, y (u), vx, vy (u/s), angle (rad).
 const COLUMNS: usize = 5;
 
 /// SIMPLE while an event is watched, row by row. Users see it as `phase_events.Observer`.
+///
+/// A copy, also one that is pickled, watches everything again, which takes as long as before.
 #[pyclass(frozen, name = "Observer", module = "phase_events._native")]
 pub(crate) struct PythonObserver {
     simple: Simple,
-    observer: Mutex<Observer>,
+    scene: Py<Scene>,
+    first: Py<PyArray2<f32>>,
+    seed: u64,
+    decisions: Option<usize>,
+    watched: Mutex<Watched>,
     entities: usize,
 }
+
+/// An observer and what it was asked.
+struct Watched {
+    observer: Observer,
+    asked: Vec<Asked>,
+}
+
+/// A row that was pushed; `None` for an inference.
+type Asked = Option<Vec<[f32; COLUMNS]>>;
 
 #[pymethods]
 impl PythonObserver {
@@ -30,59 +49,100 @@ impl PythonObserver {
     #[new]
     fn new(
         py: Python<'_>,
-        scene: PyRef<'_, Scene>,
-        row: PyReadonlyArray2<'_, f32>,
+        scene: &Bound<'_, Scene>,
+        row: &Bound<'_, PyArray2<f32>>,
         seed: u64,
         decisions: Option<usize>,
     ) -> PyResult<Self> {
-        let scene = &scene.scene;
-        let entities = scene.physics().entities().count();
-        let row = read_row(&row, entities)?;
-        let observed = ObservedEvent::in_scene(scene, vec![row]).map_err(raise)?;
+        let model = &scene.get().scene;
+        let entities = model.physics().entities().count();
+        let numbers = read_row(row, entities)?;
+        // A copy: the caller's array may change.
+        let first = PyArray2::from_vec2(py, &numbers.iter().map(|row| row.to_vec()).collect::<Vec<_>>());
+        let first = first.map_err(raise)?.unbind();
+        let observed = ObservedEvent::in_scene(model, vec![bodies(&numbers)]).map_err(raise)?;
         let simple = Simple::bundled().map_err(raise)?;
         let mut observer = py.detach(|| simple.observer(&observed, seed)).map_err(raise)?;
         if let Some(decisions) = decisions {
             observer.set_budget(Budget { decisions: Some(decisions) });
         }
-        Ok(Self { simple, observer: Mutex::new(observer), entities })
+        let watched = Mutex::new(Watched { observer, asked: Vec::new() });
+        Ok(Self { simple, scene: scene.clone().unbind(), first, seed, decisions, watched, entities })
+    }
+
+    /// The arguments of the constructor, and of `__setstate__`.
+    #[allow(clippy::type_complexity)]
+    fn __reduce__<'py>(
+        &self,
+        py: Python<'py>,
+    ) -> (Bound<'py, PyAny>, (Py<Scene>, Py<PyArray2<f32>>, u64, Option<usize>), Vec<Asked>) {
+        let arguments = (self.scene.clone_ref(py), self.first.clone_ref(py), self.seed, self.decisions);
+        (Self::type_object(py).into_any(), arguments, self.watched().asked.clone())
+    }
+
+    /// Watches again what was watched, and infers again what was inferred.
+    fn __setstate__(&self, py: Python<'_>, asked: Vec<Asked>) -> PyResult<()> {
+        py.detach(|| {
+            let mut watched = self.watched();
+            for one in asked {
+                watched.ask(one)?;
+            }
+            Ok(())
+        })
+        .map_err(|error: String| raise(error))
     }
 
     /// Watches the next row, 0.25 s later, and answers with limited effort, as JSON. `PhaseError` for an
     /// invalid row.
-    fn push(&self, py: Python<'_>, row: PyReadonlyArray2<'_, f32>) -> PyResult<String> {
-        let row = read_row(&row, self.entities)?;
-        let inference = py.detach(|| self.observer.lock().unwrap_or_else(PoisonError::into_inner).push(row));
-        self.answer(&inference.map_err(raise)?)
+    fn push(&self, py: Python<'_>, row: &Bound<'_, PyArray2<f32>>) -> PyResult<String> {
+        let row = read_row(row, self.entities)?;
+        self.answer(&py.detach(|| self.watched().ask(Some(row))).map_err(raise)?)
     }
 
     /// The answer of a batch inference of the rows seen so far, as JSON.
     fn inference(&self, py: Python<'_>) -> PyResult<String> {
-        let inference = py.detach(|| {
-            let mut observer = self.observer.lock().unwrap_or_else(PoisonError::into_inner);
-            observer.inference(&mut || ControlFlow::Continue(()))
-        });
-        let inference = inference.map_err(raise)?;
-        self.answer(&inference.ok_or_else(|| raise("interrupted"))?)
+        self.answer(&py.detach(|| self.watched().ask(None)).map_err(raise)?)
+    }
+}
+
+impl Watched {
+    fn ask(&mut self, asked: Asked) -> Result<Inference, String> {
+        let inference = match &asked {
+            Some(row) => self.observer.push(bodies(row)).map_err(|error| error.to_string())?,
+            None => {
+                let inference = self.observer.inference(&mut || ControlFlow::Continue(()));
+                let inference = inference.map_err(|error| error.to_string())?;
+                inference.ok_or_else(|| "interrupted".to_owned())?
+            }
+        };
+        self.asked.push(asked);
+        Ok(inference)
     }
 }
 
 impl PythonObserver {
+    fn watched(&self) -> MutexGuard<'_, Watched> {
+        self.watched.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
     fn answer(&self, inference: &Inference) -> PyResult<String> {
         let answer = Answer::of(&self.simple.judgement(inference)).map_err(raise)?;
         serde_json::to_string(&json!({ "answer": answer })).map_err(raise)
     }
 }
 
-fn read_row(row: &PyReadonlyArray2<'_, f32>, entities: usize) -> PyResult<[Body; MAX_ENTITIES]> {
-    check_shape("row", row.shape(), &[entities, COLUMNS])?;
+/// The numbers of a row, (entities, 5).
+fn read_row(row: &Bound<'_, PyArray2<f32>>, entities: usize) -> PyResult<Vec<[f32; COLUMNS]>> {
+    let row = reading("row", row, &[entities, COLUMNS])?;
+    let numbers = rows(&row);
+    Ok(numbers.as_chunks().0.to_vec())
+}
+
+fn bodies(row: &[[f32; COLUMNS]]) -> [Body; MAX_ENTITIES] {
     let mut bodies = [Body::default(); MAX_ENTITIES];
-    for (body, row) in bodies.iter_mut().zip(row.as_array().rows()) {
-        *body = Body {
-            position: Vec2::new(row[0], row[1]),
-            velocity: Vec2::new(row[2], row[3]),
-            angle: row[4],
-            angular_velocity: 0.0,
-        };
+    for (body, &[x, y, vx, vy, angle]) in bodies.iter_mut().zip(row) {
+        let (position, velocity) = (Vec2::new(x, y), Vec2::new(vx, vy));
+        *body = Body { position, velocity, angle, angular_velocity: 0.0 };
     }
-    Ok(bodies)
+    bodies
 }

@@ -24,6 +24,24 @@ impl Scene {
         Ok(Self { scene })
     }
 
+    /// As `from_json`.
+    #[new]
+    fn new(text: &str) -> PyResult<Self> {
+        Self::from_json(text)
+    }
+
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, (String,))> {
+        Ok((slf.get_type().into_any(), (slf.get().to_json()?,)))
+    }
+
+    fn __copy__(slf: Bound<'_, Self>) -> Bound<'_, Self> {
+        slf
+    }
+
+    fn __deepcopy__<'py>(slf: Bound<'py, Self>, _memo: &Bound<'py, PyAny>) -> Bound<'py, Self> {
+        slf
+    }
+
     /// Draws a scene of a kind and a variant, of a kind, or of any of the six kinds, from a seed of 64 bits.
     /// `PhaseError` for unknown names, and if no scene was found.
     #[staticmethod]

@@ -1,31 +1,54 @@
 //! Worlds that are stepped together.
 
 use crate::{
-    arrays::{BODY_COLUMNS, check_shape, row_of},
+    arrays::{BODY_COLUMNS, Target, reading, row_of, writing},
     error::raise,
+    pools::{check_threads, pool},
     scene::{Scene, action_of},
 };
-use numpy::{
-    PyArray1, PyArray2, PyArray3, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2, PyReadwriteArray2,
-    PyReadwriteArray3, PyUntypedArrayMethods,
-};
+use numpy::{PyArray1, PyArray2, PyArray3, PyArrayMethods};
 use phase_model::{AGENT_COUNT, Action, AgentId, MAX_ENTITIES, PhysicsConfig, State};
 use phase_sim::{Engine, Episode, View, vector::SIZE};
-use pyo3::prelude::*;
+use pyo3::{prelude::*, types::PyBytes};
 use rayon::prelude::*;
 
+/// Worlds that one thread steps at least, so that handing them over pays.
+const WORLDS_A_THREAD: usize = 8;
+
 /// Several worlds, each with a scene of its own, that are stepped together.
+///
+/// A copy, also one that is pickled, has the scenes and the actions so far: it repeats them, which gives the
+/// same worlds, bit for bit.
 #[pyclass(module = "phase_events._native")]
 pub(crate) struct Worlds {
-    episodes: Vec<Episode>,
+    worlds: Vec<World>,
     engine: Engine,
     view: View,
-    pool: Option<rayon::ThreadPool>,
+    threads: usize,
+}
+
+/// A world and how it came about.
+struct World {
+    scene: Py<Scene>,
+    episode: Episode,
+    actions: Vec<[Action; AGENT_COUNT]>,
+}
+
+impl World {
+    fn new(scene: &Bound<'_, Scene>, engine: Engine) -> Self {
+        let episode = Episode::new(&scene.get().scene, engine);
+        Self { scene: scene.clone().unbind(), episode, actions: Vec::new() }
+    }
+
+    fn step(&mut self, actions: [Action; AGENT_COUNT]) {
+        self.episode.step(actions);
+        self.actions.push(actions);
+    }
 }
 
 /// The parts of the output arrays that a step writes for one world.
 struct Row<'a> {
-    episode: &'a mut Episode,
+    world: &'a mut World,
     actions: [Action; AGENT_COUNT],
     observations: &'a mut [f32],
     rewards: &'a mut [f64],
@@ -38,33 +61,57 @@ impl Worlds {
     /// worlds are stepped at the same time. `PhaseError` for an unknown engine.
     #[new]
     #[pyo3(signature = (scenes, engine, omniscient, threads))]
-    fn new(
-        py: Python<'_>,
-        scenes: Vec<PyRef<'_, Scene>>,
-        engine: &str,
-        omniscient: bool,
-        threads: usize,
-    ) -> PyResult<Self> {
+    fn new(scenes: Vec<Bound<'_, Scene>>, engine: &str, omniscient: bool, threads: usize) -> PyResult<Self> {
         let engine = engine_of(engine)?;
-        let pool = match threads {
-            0 | 1 => None,
-            threads => Some(
-                py.detach(|| rayon::ThreadPoolBuilder::new().num_threads(threads).build().map_err(raise))?,
-            ),
-        };
-        let episodes = scenes.iter().map(|scene| Episode::new(&scene.scene, engine)).collect();
+        check_threads(threads)?;
+        let worlds = scenes.iter().map(|scene| World::new(scene, engine)).collect();
         let view = if omniscient { View::Everything } else { View::Own };
-        Ok(Self { episodes, engine, view, pool })
+        Ok(Self { worlds, engine, view, threads })
     }
 
-    fn __len__(&self) -> usize {
-        self.episodes.len()
+    /// The arguments of the constructor, and of `__setstate__`.
+    #[allow(clippy::type_complexity)]
+    fn __reduce__<'py>(
+        slf: &Bound<'py, Self>,
+    ) -> PyResult<(Bound<'py, PyAny>, (Vec<Py<Scene>>, &'static str, bool, usize), Vec<Bound<'py, PyBytes>>)>
+    {
+        let py = slf.py();
+        let this = lent(slf)?;
+        let scenes = this.worlds.iter().map(|world| world.scene.clone_ref(py)).collect();
+        let omniscient = matches!(this.view, View::Everything);
+        let numbers = |world: &World| {
+            world.actions.iter().flatten().map(|action| action.index() as u8).collect::<Vec<_>>()
+        };
+        let actions = this.worlds.iter().map(|world| PyBytes::new(py, &numbers(world))).collect();
+        let arguments = (scenes, this.engine.name(), omniscient, this.threads);
+        Ok((slf.get_type().into_any(), arguments, actions))
+    }
+
+    /// Repeats the actions of every world: bytes, those of agents 0 and 1 in turns.
+    fn __setstate__(&mut self, py: Python<'_>, actions: Vec<Vec<u8>>) -> PyResult<()> {
+        let read = |numbers: Vec<u8>| {
+            let pairs = numbers.chunks_exact(AGENT_COUNT);
+            pairs.map(|pair| Ok([action_of(pair[0].into())?, action_of(pair[1].into())?])).collect()
+        };
+        let actions: Vec<Vec<_>> = actions.into_iter().map(read).collect::<PyResult<_>>()?;
+        let worlds = &mut self.worlds;
+        py.detach(|| {
+            for (world, actions) in worlds.iter_mut().zip(actions) {
+                actions.into_iter().for_each(|actions| world.step(actions));
+            }
+        });
+        Ok(())
+    }
+
+    fn __len__(slf: &Bound<'_, Self>) -> PyResult<usize> {
+        Ok(lent(slf)?.worlds.len())
     }
 
     /// Puts a scene into one of the worlds, at its start. `PhaseError` if there is no such world.
-    fn reset(&mut self, world: i64, scene: PyRef<'_, Scene>) -> PyResult<()> {
-        let index = self.index(world)?;
-        self.episodes[index] = Episode::new(&scene.scene, self.engine);
+    fn reset(slf: &Bound<'_, Self>, world: i64, scene: &Bound<'_, Scene>) -> PyResult<()> {
+        let mut this = lent_mut(slf)?;
+        let index = this.index(world)?;
+        this.worlds[index] = World::new(scene, this.engine);
         Ok(())
     }
 
@@ -72,29 +119,30 @@ impl Worlds {
     /// 2): of these worlds, or of all. `PhaseError` for arrays of other shapes.
     #[pyo3(signature = (observations, achieved, worlds=None))]
     fn observe(
-        &self,
-        py: Python<'_>,
-        mut observations: PyReadwriteArray3<'_, f32>,
-        mut achieved: PyReadwriteArray2<'_, bool>,
-        worlds: Option<PyReadonlyArray1<'_, i64>>,
+        slf: &Bound<'_, Self>,
+        observations: &Bound<'_, PyArray3<f32>>,
+        achieved: &Bound<'_, PyArray2<bool>>,
+        worlds: Option<Vec<i64>>,
     ) -> PyResult<()> {
+        let this = lent(slf)?;
+        let this = &*this;
+        let count = this.worlds.len();
         let chosen: Vec<usize> = match worlds {
-            None => (0..self.episodes.len()).collect(),
-            Some(worlds) => {
-                worlds.as_array().iter().map(|&world| self.index(world)).collect::<PyResult<_>>()?
-            }
+            None => (0..count).collect(),
+            Some(worlds) => worlds.into_iter().map(|world| this.index(world)).collect::<PyResult<_>>()?,
         };
-        self.check_shapes(&observations, &achieved)?;
-        let observations = observations.as_slice_mut()?;
-        let achieved = achieved.as_slice_mut()?;
-        py.detach(|| {
-            for index in chosen {
-                let episode = &self.episodes[index];
-                let row = AGENT_COUNT * SIZE;
-                write_both(episode, self.view, &mut observations[index * row..(index + 1) * row]);
-                achieved[index * AGENT_COUNT..(index + 1) * AGENT_COUNT].copy_from_slice(&episode.achieved());
-            }
-        });
+        let mut observations = writing("observations", observations, &[count, AGENT_COUNT, SIZE])?;
+        let mut achieved = writing("achieved", achieved, &[count, AGENT_COUNT])?;
+        let mut observations = Target::new(observations.as_array_mut());
+        let observations = observations.numbers();
+        let mut achieved = Target::new(achieved.as_array_mut());
+        let achieved = achieved.numbers();
+        for index in chosen {
+            let episode = &this.worlds[index].episode;
+            let row = AGENT_COUNT * SIZE;
+            write_both(episode, this.view, &mut observations[index * row..(index + 1) * row]);
+            achieved[index * AGENT_COUNT..(index + 1) * AGENT_COUNT].copy_from_slice(&episode.achieved());
+        }
         Ok(())
     }
 
@@ -102,39 +150,47 @@ impl Worlds {
     /// 2) of Equation 1, and whether the goals hold. `PhaseError` for an invalid action, of which none is
     /// carried out, and for arrays of other shapes.
     fn step(
-        &mut self,
-        py: Python<'_>,
-        actions: PyReadonlyArray2<'_, i64>,
-        mut observations: PyReadwriteArray3<'_, f32>,
-        mut rewards: PyReadwriteArray2<'_, f64>,
-        mut achieved: PyReadwriteArray2<'_, bool>,
+        slf: &Bound<'_, Self>,
+        actions: &Bound<'_, PyArray2<i64>>,
+        observations: &Bound<'_, PyArray3<f32>>,
+        rewards: &Bound<'_, PyArray2<f64>>,
+        achieved: &Bound<'_, PyArray2<bool>>,
     ) -> PyResult<()> {
-        let count = self.episodes.len();
-        check_shape("actions", actions.shape(), &[count, AGENT_COUNT])?;
-        check_shape("rewards", rewards.shape(), &[count, AGENT_COUNT])?;
-        self.check_shapes(&observations, &achieved)?;
+        let py = slf.py();
+        let mut this = lent_mut(slf)?;
+        let count = this.worlds.len();
+        let actions = reading("actions", actions, &[count, AGENT_COUNT])?;
         let numbers = actions.as_array();
         let rows = numbers.rows().into_iter();
         let actions: Vec<[Action; AGENT_COUNT]> =
             rows.map(|row| Ok([action_of(row[0])?, action_of(row[1])?])).collect::<PyResult<_>>()?;
-        let observations = observations.as_slice_mut()?;
-        let rewards = rewards.as_slice_mut()?;
-        let achieved = achieved.as_slice_mut()?;
-        let Self { episodes, view, pool, .. } = self;
+        let mut observations = writing("observations", observations, &[count, AGENT_COUNT, SIZE])?;
+        let mut rewards = writing("rewards", rewards, &[count, AGENT_COUNT])?;
+        let mut achieved = writing("achieved", achieved, &[count, AGENT_COUNT])?;
+        let mut observations = Target::new(observations.as_array_mut());
+        let observations = observations.numbers();
+        let mut rewards = Target::new(rewards.as_array_mut());
+        let rewards = rewards.numbers();
+        let mut achieved = Target::new(achieved.as_array_mut());
+        let achieved = achieved.numbers();
+        let pool =
+            if this.threads > 1 && count > WORLDS_A_THREAD { Some(pool(py, this.threads)?) } else { None };
+        let Self { worlds, view, .. } = &mut *this;
         let view = *view;
         let one = |row: Row<'_>| {
-            row.episode.step(row.actions);
-            write_both(row.episode, view, row.observations);
-            row.rewards.copy_from_slice(&row.episode.rewards(row.actions));
-            row.achieved.copy_from_slice(&row.episode.achieved());
+            row.world.step(row.actions);
+            let episode = &row.world.episode;
+            write_both(episode, view, row.observations);
+            row.rewards.copy_from_slice(&episode.rewards(row.actions));
+            row.achieved.copy_from_slice(&episode.achieved());
         };
         py.detach(|| {
             let observations = observations.chunks_exact_mut(AGENT_COUNT * SIZE);
-            let rows = episodes.iter_mut().zip(actions).zip(observations);
+            let rows = worlds.iter_mut().zip(actions).zip(observations);
             let rows =
                 rows.zip(rewards.chunks_exact_mut(AGENT_COUNT)).zip(achieved.chunks_exact_mut(AGENT_COUNT));
-            let rows = rows.map(|((((episode, actions), observations), rewards), achieved)| Row {
-                episode,
+            let rows = rows.map(|((((world, actions), observations), rewards), achieved)| Row {
+                world,
                 actions,
                 observations,
                 rewards,
@@ -144,7 +200,7 @@ impl Worlds {
                 None => rows.for_each(one),
                 Some(pool) => {
                     let rows: Vec<Row<'_>> = rows.collect();
-                    pool.install(|| rows.into_par_iter().with_min_len(8).for_each(one));
+                    pool.install(|| rows.into_par_iter().with_min_len(WORLDS_A_THREAD).for_each(one));
                 }
             }
         });
@@ -153,21 +209,24 @@ impl Worlds {
 
     /// The bodies of a world: (entities, 6), columns x, y (u), angle (rad), vx, vy (u/s), angular velocity
     /// (rad/s).
-    fn bodies<'py>(&self, py: Python<'py>, world: i64) -> PyResult<Bound<'py, PyArray2<f32>>> {
-        let episode = self.episode(world)?;
+    fn bodies<'py>(slf: &Bound<'py, Self>, world: i64) -> PyResult<Bound<'py, PyArray2<f32>>> {
+        let this = lent(slf)?;
+        let episode = this.episode(world)?;
         let rows: Vec<Vec<f32>> = episode
             .physics()
             .entities()
             .map(|entity| row_of(episode.state().body(entity)).to_vec())
             .collect();
-        PyArray2::from_vec2(py, &rows).map_err(raise)
+        PyArray2::from_vec2(slf.py(), &rows).map_err(raise)
     }
 
     /// The bodies of all worlds: (N, 4, 6), columns as of `bodies`; 0 for absent objects.
-    fn states<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray3<f32>> {
-        let states = PyArray3::zeros(py, [self.episodes.len(), MAX_ENTITIES, BODY_COLUMNS], false);
+    fn states<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyArray3<f32>>> {
+        let this = lent(slf)?;
+        let states = PyArray3::zeros(slf.py(), [this.worlds.len(), MAX_ENTITIES, BODY_COLUMNS], false);
         let mut rows = states.readwrite();
-        for (episode, mut rows) in self.episodes.iter().zip(rows.as_array_mut().outer_iter_mut()) {
+        for (world, mut rows) in this.worlds.iter().zip(rows.as_array_mut().outer_iter_mut()) {
+            let episode = &world.episode;
             for (entity, mut row) in episode.physics().entities().zip(rows.outer_iter_mut()) {
                 for (to, from) in row.iter_mut().zip(row_of(episode.state().body(entity))) {
                     *to = from;
@@ -175,48 +234,40 @@ impl Worlds {
             }
         }
         drop(rows);
-        states
+        Ok(states)
     }
 
     /// The bodies after each substep of the last step: (5, entities, 6).
-    fn substeps<'py>(&self, py: Python<'py>, world: i64) -> PyResult<Bound<'py, PyArray3<f32>>> {
-        let episode = self.episode(world)?;
+    fn substeps<'py>(slf: &Bound<'py, Self>, world: i64) -> PyResult<Bound<'py, PyArray3<f32>>> {
+        let this = lent(slf)?;
+        let episode = this.episode(world)?;
         let rows = |state: &State| {
             episode.physics().entities().map(|entity| row_of(state.body(entity)).to_vec()).collect()
         };
         let states: Vec<Vec<Vec<f32>>> = episode.substeps().iter().map(rows).collect();
-        PyArray3::from_vec3(py, &states).map_err(raise)
+        PyArray3::from_vec3(slf.py(), &states).map_err(raise)
     }
 
     /// The object that each agent of a world holds: its number, or −1.
-    fn held<'py>(&self, py: Python<'py>, world: i64) -> PyResult<Bound<'py, PyArray1<i64>>> {
-        let state = self.episode(world)?.state();
+    fn held<'py>(slf: &Bound<'py, Self>, world: i64) -> PyResult<Bound<'py, PyArray1<i64>>> {
+        let this = lent(slf)?;
+        let state = this.episode(world)?.state();
         let held =
             AgentId::ALL.map(|agent| state.held_object(agent).map_or(-1, |object| object.number().into()));
-        Ok(PyArray1::from_slice(py, &held))
+        Ok(PyArray1::from_slice(slf.py(), &held))
     }
 }
 
 impl Worlds {
     /// The number of a world.
     fn index(&self, world: i64) -> PyResult<usize> {
-        let count = self.episodes.len();
+        let count = self.worlds.len();
         let index = usize::try_from(world).ok().filter(|&index| index < count);
         index.ok_or_else(|| raise(format!("there are {count} worlds, and no world {world}")))
     }
 
     fn episode(&self, world: i64) -> PyResult<&Episode> {
-        Ok(&self.episodes[self.index(world)?])
-    }
-
-    fn check_shapes(
-        &self,
-        observations: &PyReadwriteArray3<'_, f32>,
-        achieved: &PyReadwriteArray2<'_, bool>,
-    ) -> PyResult<()> {
-        let count = self.episodes.len();
-        check_shape("observations", observations.shape(), &[count, AGENT_COUNT, SIZE])?;
-        check_shape("achieved", achieved.shape(), &[count, AGENT_COUNT])
+        Ok(&self.worlds[self.index(world)?].episode)
     }
 
     /// The physics and the state of a world.
@@ -224,6 +275,20 @@ impl Worlds {
         self.episode(world).map(|episode| (episode.physics(), episode.state()))
     }
 }
+
+/// Worlds to look at.
+///
+/// # Errors
+/// `PhaseError` while another thread steps them.
+pub(crate) fn lent<'py>(worlds: &Bound<'py, Worlds>) -> PyResult<PyRef<'py, Worlds>> {
+    worlds.try_borrow().map_err(|_| raise(IN_USE))
+}
+
+fn lent_mut<'py>(worlds: &Bound<'py, Worlds>) -> PyResult<PyRefMut<'py, Worlds>> {
+    worlds.try_borrow_mut().map_err(|_| raise(IN_USE))
+}
+
+const IN_USE: &str = "the worlds are being stepped by another thread";
 
 /// Writes the observations of both agents of a world.
 fn write_both(episode: &Episode, view: View, out: &mut [f32]) {

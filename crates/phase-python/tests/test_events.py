@@ -1,6 +1,11 @@
 """Events, data, minds and inference."""
 
 import json
+import os
+import signal
+import subprocess
+import sys
+import threading
 
 import numpy as np
 import pytest
@@ -141,6 +146,56 @@ def test_scores_are_the_benchmarks(event, tmp_path):
         phase.evaluate({event.id: {"goals": [[], []]}}, [event])
 
 
+@pytest.mark.parametrize("name", ["org/model", "../../x", "events", "results", "a b", "-x", "Ünï", "."])
+def test_the_name_of_a_method_names_no_file(name, event, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    right = {"goals": [[{"goal": goal, "p": np.float32(1)}] for goal in event.goals]}
+    right["relation"] = {"friendly": np.float64(0.5), "adversarial": np.array(0.25), "neutral": 0.25}
+    scores = phase.evaluate({event.id: right}, [event], name=name, out=tmp_path / "out" / "kept")
+    assert (scores["method"], scores["goal"]["top1"]) == (name, 1.0)
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["out"]
+    assert [path.name for path in (tmp_path / "out").iterdir()] == ["kept"]
+
+
+def test_answers_are_not_changed(event):
+    answer = {"goals": [[], []], "relation": {"friendly": np.float32(1), "adversarial": 0, "neutral": 0}}
+    phase.evaluate({event.id: answer}, [event])
+    assert set(answer) == {"goals", "relation"}
+
+
+THREADS = """
+import os, sys, tempfile, threading
+import phase_events as phase
+
+def make(events):
+    options = ("--particles", "4", "--simulations", "20", "--max-steps", "10")
+    phase.generate("demo", events, tempfile.mkdtemp() + "/x", video=False, jobs=1, options=options)
+
+threads = [threading.Thread(target=make, args=(count,)) for count in (1, 6, 3)]
+[thread.start() for thread in threads]
+print("while they run", flush=True)
+[thread.join() for thread in threads]
+print("afterwards", flush=True)
+phase.run("stats", "--help")
+"""
+
+
+def test_silence_is_that_of_one_command():
+    """Commands that run at once, some silently, do not take stdout away from each other or from Python."""
+    done = subprocess.run([sys.executable, "-c", THREADS], capture_output=True, text=True, check=True, timeout=300)
+    first, second, *help = done.stdout.splitlines()
+    assert (first, second) == ("while they run", "afterwards")
+    assert help and done.stderr == ""
+
+
+def test_commands_print_unless_they_are_silent(tmp_path, capfd):
+    options = ["--simulations", "10", "--particles", "5", "--max-steps", "4"]
+    phase.generate("demo", 1, tmp_path / "a", video=False, options=options)
+    assert capfd.readouterr() == ("", "")
+    phase.generate("demo", 1, tmp_path / "b", video=False, options=options, quiet=False)
+    assert "manifest" in capfd.readouterr().out
+
+
 def test_datasets_are_generated_and_read(tmp_path):
     options = ["--simulations", "10", "--particles", "5", "--max-steps", "4"]
     out = phase.generate("demo", 3, tmp_path / "demo", video=False, options=options)
@@ -181,6 +236,35 @@ def test_pictures_and_videos(event, tmp_path):
         event.picture(1000)
     with pytest.raises(phase.PhaseError):
         event.save_video(tmp_path / "no" / "event.mp4")
+
+
+def test_what_fails_leaves_the_old_file(event, tmp_path):
+    """A file is written whole or not at all, and nothing else remains."""
+    video, file, many = (tmp_path / name for name in ("event.mp4", "event.json", "events.json"))
+    event.save_video(video, side=64)
+    event.save(file)
+    save_events([event], many)
+    before = {path: path.read_bytes() for path in tmp_path.iterdir()}
+    with pytest.raises(phase.PhaseError, match="even"):
+        event.save_video(video, side=101)
+    with pytest.raises(phase.PhaseError):
+        event.save_video(video, side=3)
+    with pytest.raises(phase.PhaseError):
+        save_events([event, event], many)
+    with pytest.raises(phase.PhaseError):
+        save_events([], many)
+    # No file of more than a few bytes can be written.
+    resource = pytest.importorskip("resource")
+    limits, handler = resource.getrlimit(resource.RLIMIT_FSIZE), signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (100, limits[1]))
+    try:
+        for write in (lambda: event.save_video(video), lambda: event.save(file), lambda: save_events([event], many)):
+            with pytest.raises(phase.PhaseError, match="event"):
+                write()
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, limits)
+        signal.signal(signal.SIGXFSZ, handler)
+    assert {path: path.read_bytes() for path in tmp_path.iterdir()} == before
 
 
 def test_ids_must_differ(event, tmp_path):

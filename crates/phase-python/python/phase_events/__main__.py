@@ -8,13 +8,14 @@ from . import PhaseError, run
 def main():
     """Runs the program ``phase`` with the arguments of this process.
 
-    The exit code is 0, 2 after a failure, whose sentence is printed on stderr, or 130 after an interruption.
+    The exit code is that of the program: 2 for bad input, 1 for another failure, each with a sentence on stderr, or 130 after an
+    interruption.
     """
     try:
         run(*sys.argv[1:])
     except PhaseError as error:
         print(f"error: {error}", file=sys.stderr)
-        sys.exit(2)
+        sys.exit(getattr(error, "exit_code", 1))
     except KeyboardInterrupt:
         sys.exit(130)
 

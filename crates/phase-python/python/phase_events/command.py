@@ -3,11 +3,17 @@
 import json
 import os
 import tempfile
+from collections.abc import Mapping
 from pathlib import Path
 
 from . import _native
+from ._check import choice, path_of, seed_of, text, to_json, whole
 from ._native import PhaseError
 from .events import save_events
+from .perception import methods
+
+MOST_JOBS = 1024
+"""The greatest number of events that are worked on at once."""
 
 
 def run(*arguments):
@@ -19,10 +25,15 @@ def run(*arguments):
         arguments: the command and its options, each as text, a number or a path.
 
     Raises:
-        PhaseError: if the command fails, with the sentence of the command line.
+        PhaseError: if the command fails, with the sentence of the command line; its attribute ``exit_code`` is that of the program.
         KeyboardInterrupt: after the current step; what is finished is kept, and the same command goes on.
     """
-    _native.run([os.fspath(argument) if isinstance(argument, os.PathLike) else str(argument) for argument in arguments])
+    _run(arguments, silent=False)
+
+
+def _run(arguments, silent):
+    """Runs a command, with its results on stdout or without them."""
+    _native.run([path_of(one) if isinstance(one, (bytes, os.PathLike)) else str(one) for one in arguments], silent)
 
 
 def generate(preset="demo", events=None, out=None, *, shard=None, seed=None, video=True, jobs=None, quiet=True, options=()):
@@ -52,22 +63,26 @@ def generate(preset="demo", events=None, out=None, *, shard=None, seed=None, vid
     """
     if out is None:
         raise PhaseError("out: a folder for the dataset is needed")
-    arguments = ["gen-dataset", "--preset", str(preset), "--out", os.fspath(out)]
+    arguments = ["gen-dataset", f"--preset={path_of(preset)}", f"--out={path_of(out)}"]
     if events is not None:
-        arguments += ["--events", str(events)]
+        arguments.append(f"--events={whole('events', events, 1, 2**32 - 1)}")
     if seed is not None:
-        arguments += ["--seed", str(seed)]
+        arguments.append(f"--seed={seed_of(seed)}")
     if shard is not None:
-        arguments += ["--shard", "{}/{}".format(*shard)]
+        if not isinstance(shard, (tuple, list)) or len(shard) != 2:
+            raise PhaseError(f"shard is (k, n), the k-th of n parts, not {shard!r}")
+        parts = whole("n of shard", shard[1], 1, 2**32 - 1)
+        arguments.append(f"--shard={whole('k of shard', shard[0], 1, parts)}/{parts}")
     if not video:
         arguments.append("--no-video")
     if jobs is not None:
-        arguments += ["--jobs", str(jobs)]
+        arguments.append(f"--jobs={whole('jobs', jobs, 1, MOST_JOBS)}")
     if quiet:
         arguments.append("--quiet")
-    with _silent_output(quiet):
-        run(*arguments, *options)
-    return Path(out)
+    if not isinstance(options, (tuple, list)):
+        raise PhaseError(f"options is a list of options and their values, not {options!r}")
+    _run([*arguments, *options], silent=quiet)
+    return Path(os.fsdecode(out))
 
 
 def evaluate(predictions, events, *, task="goals", split=None, ratings=None, seed=1, name="predictions", out=None):
@@ -94,59 +109,38 @@ def evaluate(predictions, events, *, task="goals", split=None, ratings=None, see
     Raises:
         PhaseError: if an event has no answer, an answer is invalid, or a file cannot be read.
     """
-    if task not in ("goals", "trajectories"):
-        raise PhaseError(f"task is goals or trajectories, not {task!r}")
+    choice("task", task, tuple(methods()))
     with tempfile.TemporaryDirectory() as folder:
         folder = Path(folder)
-        if not isinstance(events, (str, os.PathLike)):
-            path = folder / "events.json"
-            save_events(events, path)
-            events = path
-        kept = Path(out) if out is not None else folder / "results"
-        arguments = ["eval", task, "--events", os.fspath(events), "--out", os.fspath(kept), "--seed", str(seed), "--quiet"]
-        if isinstance(predictions, str):
-            arguments += ["--method", predictions]
+        if isinstance(events, (str, bytes, os.PathLike)):
+            events = path_of(events)
         else:
-            file = folder / f"{name}.json"
-            file.write_text(json.dumps(_document(predictions, name)), encoding="utf-8")
-            arguments += ["--predictions", os.fspath(file)]
+            # What a file is called here is not what a caller calls anything.
+            file = folder / "events.json"
+            save_events(events, file)
+            events = os.fspath(file)
+        kept = Path(path_of(out)) if out is not None else folder / "results"
+        arguments = ["eval", task, f"--events={events}", f"--out={kept}", f"--seed={seed_of(seed)}", "--quiet"]
+        if isinstance(predictions, str):
+            arguments.append(f"--method={text('predictions', predictions)}")
+        else:
+            file = folder / "predictions.json"
+            _native.write_text(os.fspath(file), _document(predictions, text("name", name)))
+            arguments.append(f"--predictions={file}")
         if split is not None:
-            arguments += ["--split", split]
+            arguments.append(f"--split={text('split', split)}")
         if ratings is not None:
-            arguments += ["--ratings", os.fspath(ratings)]
-        with _silent_output(True):
-            run(*arguments)
+            arguments.append(f"--ratings={path_of(ratings)}")
+        _run(arguments, silent=True)
         return json.loads((kept / "results.json").read_text(encoding="utf-8"))
 
 
 def _document(predictions, name):
-    events = [dict(_plain(answer), id=id) for id, answer in predictions.items()]
-    return {"method": name, "events": events}
-
-
-def _plain(answer):
-    """An answer without arrays."""
-    return {key: value.tolist() if hasattr(value, "tolist") else value for key, value in answer.items()}
-
-
-class _silent_output:
-    """Leaves out what a command prints on stdout."""
-
-    def __init__(self, silent):
-        self._silent = silent
-        self._kept = None
-
-    def __enter__(self):
-        if self._silent:
-            import sys
-
-            sys.stdout.flush()
-            self._kept = os.dup(1)
-            null = os.open(os.devnull, os.O_WRONLY)
-            os.dup2(null, 1)
-            os.close(null)
-
-    def __exit__(self, *_):
-        if self._kept is not None:
-            os.dup2(self._kept, 1)
-            os.close(self._kept)
+    """Predictions as the command line reads them."""
+    if not isinstance(predictions, Mapping):
+        raise PhaseError(f"predictions are a dict from ids to answers, or the name of a method, not {type(predictions).__name__}")
+    wrong = next((id for id, answer in predictions.items() if not isinstance(answer, Mapping)), None)
+    if wrong is not None:
+        raise PhaseError(f"predictions: the answer for {wrong!r} is a dict, not {type(predictions[wrong]).__name__}")
+    events = [dict(answer, id=id) for id, answer in predictions.items()]
+    return to_json("predictions", {"method": name, "events": events})

@@ -4,7 +4,13 @@ A step lasts 0.25 s. Actions are indices of ``ACTIONS``. Observations are descri
 step is Equation 1 of the paper, (1 - |attitude|) R(s, own goal) + attitude R(s, other's goal) + C(a), where R is 1 while the goal holds
 and C(a) is -0.02 for the seven pushes that are not forward, otherwise 0. Episodes do not terminate; they are truncated after
 ``max_steps``.
+
+Environments can be copied and pickled at any time. A copy goes on as the original does: its world repeats the actions so far.
 """
+
+import inspect
+import warnings
+from collections.abc import Mapping
 
 import gymnasium
 import numpy as np
@@ -12,14 +18,17 @@ import pettingzoo
 from gymnasium import spaces
 
 from . import _native
+from ._check import MOST_STEPS, as_action, choice, seed_of, whole
 from ._native import ACTIONS, OBSERVATION_SIZE, PhaseError
+from .events import SIDES
 from .policies import HeuristicPolicy, Mind, RandomPolicy, StillPolicy
-from .scenes import as_source, seed_of
+from .scenes import as_source
 
 RENDER_MODES = ("human", "rgb_array")
 STEPS_PER_SECOND = 4
 AGENTS = ("agent_0", "agent_1")
 VIEWS = ("view", "state")
+ENGINES = ("world", "forward")
 
 
 def observation_space():
@@ -41,21 +50,17 @@ class Arena:
     """
 
     def __init__(self, scenes, engine, observation, max_steps, render_mode, side):
-        if observation not in VIEWS:
-            raise PhaseError(f"observation is view, what agents see and feel, or state, everything; not {observation!r}")
-        if not isinstance(max_steps, int) or max_steps < 1:
-            raise PhaseError(f"max_steps is a whole number of at least 1, not {max_steps!r}")
-        if render_mode is not None and render_mode not in RENDER_MODES:
-            raise PhaseError(f"render_mode is human, rgb_array or None, not {render_mode!r}")
+        self._omniscient = choice("observation", observation, VIEWS) == "state"
+        self._engine = choice("engine", engine, ENGINES)
+        if render_mode is not None:
+            choice("render_mode", render_mode, RENDER_MODES)
         self._source = as_source(scenes)
-        self._engine = engine
-        self._omniscient = observation == "state"
-        self._renderer = _native.Renderer(side)
+        self._renderer = _native.Renderer(whole("side", side, *SIDES))
         self._random = np.random.default_rng()
         self._window = None
         self._worlds = None
         self._closed = False
-        self.max_steps = max_steps
+        self.max_steps = whole("max_steps", max_steps, 1, MOST_STEPS)
         self.render_mode = render_mode
         self.steps = 0
         self.seed = 0
@@ -63,8 +68,10 @@ class Arena:
         self.observations = np.zeros((1, 2, OBSERVATION_SIZE), dtype=np.float32)
         self.rewards = np.zeros((1, 2))
         self.achieved = np.zeros((1, 2), dtype=bool)
-        # Wrong engines are reported at once.
-        _native.Worlds([], engine, self._omniscient, 1)
+
+    def __getstate__(self):
+        # A window belongs to its process.
+        return dict(self.__dict__, _window=None)
 
     def reset(self, seed, options):
         """Begins an episode: draws its seed, from that its scene, and puts the world at its start.
@@ -74,14 +81,14 @@ class Arena:
             options: ``{"scene": …}`` gives the scene of this episode; ``None`` for none.
 
         Raises:
-            PhaseError: for an invalid seed or scene, and after :meth:`close`.
+            PhaseError: for an invalid seed, scene or option, and after :meth:`close`.
         """
         self.check_open()
+        options = read_options(options, ("scene",))
+        source = as_source(options["scene"]) if "scene" in options else self._source
         if seed is not None:
             self._random = np.random.default_rng(seed_of(seed))
         self.seed = int(self._random.integers(2**63))
-        options = options or {}
-        source = as_source(options["scene"]) if "scene" in options else self._source
         self.scene = source(self.seed)
         if self._worlds is None:
             self._worlds = _native.Worlds([self.scene], self._engine, self._omniscient, 1)
@@ -188,30 +195,32 @@ class Arena:
             raise PhaseError("call reset before step, render and state")
 
 
-def as_action(action):
-    """The number of an action as an ``int``.
+def read_options(options, known):
+    """The options of a reset as a dict.
 
     Args:
-        action: a whole number from 0 to 13, of any type.
+        options: a dict, or ``None``.
+        known: the names that it may have.
 
     Raises:
-        PhaseError: for anything else.
+        PhaseError: for another name, and for anything that is no dict.
     """
-    try:
-        number = int(action)
-        exact = number == action
-    except (TypeError, ValueError, OverflowError):
-        exact = False
-    if not exact or not 0 <= number < len(ACTIONS):
-        raise PhaseError(f"an action is a whole number from 0 to {len(ACTIONS) - 1}, not {action!r}")
-    return number
+    if options is None:
+        return {}
+    if not isinstance(options, Mapping):
+        raise PhaseError(f"options are a dict or None, not {options!r}")
+    unknown = [name for name in options if name not in known]
+    if unknown:
+        raise PhaseError(f"options may have {' and '.join(known)}, and no {unknown[0]!r}")
+    return dict(options)
 
 
 def as_policy(partner):
     """A policy by its name, or the policy itself.
 
     Args:
-        partner: ``phase``, ``heuristic``, ``random``, ``still``, or a function from an observation to an action.
+        partner: ``phase``, ``heuristic``, ``random``, ``still``, a function from an observation to an action, or one without arguments
+            (or a class) that makes such a policy.
 
     Raises:
         PhaseError: for anything else.
@@ -219,9 +228,24 @@ def as_policy(partner):
     named = {"phase": Mind, "heuristic": HeuristicPolicy, "random": RandomPolicy, "still": StillPolicy}
     if isinstance(partner, str) and partner in named:
         return named[partner]()
-    if callable(partner):
-        return partner
+    made = partner() if callable(partner) and _makes_policies(partner) else partner
+    if callable(made):
+        return made
     raise PhaseError(f"a partner is {', '.join(named)}, or a function of the observation, not {partner!r}")
+
+
+def _makes_policies(function):
+    if isinstance(function, type):
+        return True
+    try:
+        signature = inspect.signature(function)
+    except (TypeError, ValueError):
+        return False
+    try:
+        signature.bind(None)
+    except TypeError:
+        return True
+    return False
 
 
 class PhaseParallelEnv(pettingzoo.ParallelEnv):
@@ -283,7 +307,8 @@ class PhaseParallelEnv(pettingzoo.ParallelEnv):
 
         Args:
             seed: a whole number from 0 to 2**64 - 1 from which this and all later episodes follow; ``None`` goes on drawing.
-            options: ``{"scene": …}`` gives the scene of this episode; other options are ignored.
+            options: ``{"scene": …}`` gives the scene of this episode. Others have no effect, of which a warning says so: PettingZoo's
+                tests of conformance want them to be taken.
 
         Returns:
             the observations and the infos, dicts from ``agent_0`` and ``agent_1``. An info has ``goal_holds`` and
@@ -292,6 +317,11 @@ class PhaseParallelEnv(pettingzoo.ParallelEnv):
         Raises:
             PhaseError: for an invalid seed or scene, and after :meth:`close`.
         """
+        if isinstance(options, Mapping):
+            unknown = [name for name in options if name != "scene"]
+            if unknown:
+                warnings.warn(f"the option {unknown[0]!r} has no effect", stacklevel=2)
+            options = {name: value for name, value in options.items() if name not in unknown}
         self._arena.reset(seed, options)
         self.agents = list(AGENTS)
         return self._by_agent(self._arena.observation), self._by_agent(self._arena.info)
@@ -312,9 +342,14 @@ class PhaseParallelEnv(pettingzoo.ParallelEnv):
         arena.check_running()
         if not self.agents:
             return {}, {}, {}, {}, {}
+        if not isinstance(actions, Mapping):
+            raise PhaseError(f"actions are a dict from agents to actions, not {actions!r}")
         missing = [agent for agent in AGENTS if agent not in actions]
         if missing:
             raise PhaseError(f"there is no action of {missing[0]}")
+        unknown = [agent for agent in actions if agent not in AGENTS]
+        if unknown:
+            raise PhaseError(f"actions: there is no agent {unknown[0]!r}")
         arena.step([as_action(actions[agent]) for agent in AGENTS])
         truncated = arena.truncated
         answer = (
@@ -361,6 +396,9 @@ class PhaseEnv(gymnasium.Env):
         partner: ``phase`` (a mind with the paper's settings), ``heuristic``, ``random``, ``still``, or a policy, such as
             ``Mind(parameters={"simulations": 100})`` or ``ReplayPolicy(event)``.
 
+    ``gymnasium.make("PHASE-v0", …)`` makes it, and ``gymnasium.make_vec`` many of them, in one call
+    (:class:`phase_events.vector.PhaseVectorEnv`), one after the other or in processes: all with the same episodes for the same seeds.
+
     Raises:
         PhaseError: for invalid arguments, actions and scenes, and for any use after :meth:`close`.
     """
@@ -379,11 +417,9 @@ class PhaseEnv(gymnasium.Env):
         render_mode=None,
         side=480,
     ):
-        if agent not in (0, 1):
-            raise PhaseError(f"agent is 0 or 1, not {agent!r}")
+        self._agent = whole("agent", agent, 0, 1)
         self._arena = Arena(scenes, engine, observation, max_steps, render_mode, side)
         self._partner = as_policy(partner)
-        self._agent = agent
         self.render_mode = render_mode
         self.observation_space = observation_space()
         self.action_space = spaces.Discrete(len(ACTIONS))
@@ -404,11 +440,12 @@ class PhaseEnv(gymnasium.Env):
             the learner's observation and its info, with ``goal_holds`` and ``other_goal_holds``.
 
         Raises:
-            PhaseError: for an invalid seed or scene, and after :meth:`close`.
+            PhaseError: for an invalid seed, scene or option, and after :meth:`close`.
         """
-        super().reset(seed=seed)
+        seed = None if seed is None else seed_of(seed)
         arena = self._arena
         arena.reset(seed, options)
+        super().reset(seed=seed)
         if hasattr(self._partner, "reset"):
             self._partner.reset(arena.scene, 1 - self._agent, arena.seed)
         return arena.observation(self._agent), arena.info(self._agent)

@@ -1,16 +1,21 @@
 """Events: simulated, read from files and datasets, as arrays."""
 
 import json
-import os
+import operator
 from collections.abc import Sequence
 from functools import cached_property
 
 import numpy as np
 
 from . import _native
+from ._check import path_of, seed_of, text, to_json, whole
 from ._native import ACTIONS, PhaseError
 from .scenes import scene as as_scene
-from .scenes import seed_of
+
+MOST_STEPS = 10_000
+"""The greatest length of an event (steps of 0.25 s)."""
+SIDES = (64, 2000)
+"""The least and the greatest side of a picture (pixels)."""
 
 
 class Event:
@@ -20,11 +25,15 @@ class Event:
     >>> event.trajectory[-1, 0, :2]    # where agent 0 is at the end (u)           # doctest: +SKIP
 
     An event is either a simulation, which has substeps, actions and thoughts, or a recording, which may have none of them. It does not
-    change.
+    change. It can be copied and pickled, as can :class:`Events`.
     """
 
     def __init__(self, native):
         self._native = native
+
+    def __reduce__(self):
+        # Without the arrays, which are made again.
+        return Event, (self._native,)
 
     def __repr__(self):
         return f"<Event {self.id}: {self.kind}, {self.steps} steps>"
@@ -99,12 +108,12 @@ class Event:
         return self._native.to_json()
 
     def save(self, path):
-        """Writes :meth:`to_json` to a file.
+        """Writes :meth:`to_json` to a file, whole or not at all.
 
         Raises:
-            PhaseError: if it cannot be written.
+            PhaseError: if it cannot be written; an older file of that name is unchanged then.
         """
-        _write(path, self.to_json())
+        _native.write_text(path_of(path), self.to_json())
 
     def picture(self, row=-1, side=480):
         """A picture of the event at a row of its trajectory.
@@ -119,22 +128,22 @@ class Event:
         Raises:
             PhaseError: for a row that the event does not have, and a side outside 64 to 2000.
         """
-        row = row + self.steps + 1 if row < 0 else row
-        if row < 0:
-            raise PhaseError(f"the event has the rows 0 to {self.steps}")
-        return _native.Renderer(side).event(self._native, row)
+        row = whole("row", row, -self.steps - 1, self.steps)
+        return _native.Renderer(whole("side", side, *SIDES)).event(self._native, row % (self.steps + 1))
 
     def save_video(self, path, side=480):
         """Writes the event as an .mp4 (H.264) of 20 frames a second, five a step.
 
         Args:
-            path: the file. One that exists is overwritten.
-            side: the side of the video (pixels), 64 to 2000.
+            path: the file. One that exists is replaced.
+            side: the side of the video (pixels), 64 to 2000, even.
 
         Raises:
-            PhaseError: for another side, and if the file cannot be written.
+            PhaseError: for another side, and if the file cannot be written; an older file of that name is unchanged then.
         """
-        _native.Renderer(side).video(self._native, os.fspath(path))
+        if whole("side", side, *SIDES) % 2:
+            raise PhaseError(f"the side of a video is even, not {side}")
+        _native.Renderer(side).video(self._native, path_of(path))
 
 
 class Events(Sequence):
@@ -153,6 +162,7 @@ class Events(Sequence):
     def __getitem__(self, index):
         if isinstance(index, slice):
             return [self[k] for k in range(*index.indices(len(self)))]
+        index = operator.index(index)
         index = index + len(self) if index < 0 else index
         if not 0 <= index < len(self):
             raise IndexError(f"there are {len(self)} events")
@@ -182,7 +192,7 @@ def load_events(path):
     Raises:
         PhaseError: naming file, field and rule, if there are none or they cannot be read.
     """
-    return Events(_native.EventSource(os.fspath(path)))
+    return Events(_native.EventSource(path_of(path)))
 
 
 def simulate(scene, seed=0, *, id="event", engine="world", max_steps=100, parameters=None):
@@ -204,9 +214,9 @@ def simulate(scene, seed=0, *, id="event", engine="world", max_steps=100, parame
         PhaseError: for an invalid argument, naming it and the rule.
         KeyboardInterrupt: within a step.
     """
-    parameters = None if parameters is None else json.dumps(parameters)
-    if not isinstance(max_steps, int) or not 1 <= max_steps <= 10_000:
-        raise PhaseError(f"max_steps is a whole number from 1 to 10000, not {max_steps!r}")
+    parameters = None if parameters is None else to_json("parameters", parameters)
+    max_steps = whole("max_steps", max_steps, 1, MOST_STEPS)
+    id, engine = text("id", id), text("engine", engine)
     return Event(_native.simulate(as_scene(scene), seed_of(seed), id, engine, max_steps, parameters))
 
 
@@ -215,19 +225,20 @@ def save_events(events, path):
 
     Args:
         events: at least one :class:`Event`.
-        path: the file. One that exists is overwritten.
+        path: the file. One that exists is replaced.
 
     Raises:
-        PhaseError: if there are no events, two have the same id, or the file cannot be written.
+        PhaseError: if there are no events, two have the same id, or the file cannot be written; an older file of that name is unchanged
+            then.
     """
-    events = list(events)
+    events = _list(events)
     if len({event.id for event in events}) < len(events):
         raise PhaseError("two events have the same id")
     documents = [json.loads(event.to_json()) for event in events]
     if not documents:
         raise PhaseError("there are no events")
     document = dict(documents[0], events=[event for one in documents for event in one["events"]])
-    _write(path, json.dumps(document))
+    _native.write_text(path_of(path), json.dumps(document))
 
 
 def tensors(events):
@@ -244,7 +255,7 @@ def tensors(events):
     Raises:
         PhaseError: if there are no events.
     """
-    events = list(events)
+    events = _list(events)
     if not events:
         raise PhaseError("there are no events")
     longest = max(event.steps for event in events)
@@ -290,7 +301,7 @@ def to_pandas(events):
 
     names = ["agent 0", "agent 1", "object 0", "object 1"]
     frames = []
-    for event in events:
+    for event in _list(events):
         rows = event.trajectory
         steps, entities, _ = rows.shape
         frame = pandas.DataFrame(rows.reshape(-1, 5), columns=["x", "y", "vx", "vy", "angle"])
@@ -310,9 +321,13 @@ def to_pandas(events):
     return pandas.concat(frames, ignore_index=True)
 
 
-def _write(path, text):
+def _list(events):
+    """Events as a list; those of :class:`Events` are read."""
     try:
-        with open(path, "w", encoding="utf-8") as file:
-            file.write(text)
-    except OSError as error:
-        raise PhaseError(f"{path}: {error.strerror or error}") from error
+        events = list(events)
+    except TypeError:
+        raise PhaseError(f"events are a sequence of Event, not {type(events).__name__}") from None
+    wrong = next((one for one in events if not isinstance(one, Event)), None)
+    if wrong is not None:
+        raise PhaseError(f"events are a sequence of Event, not of {type(wrong).__name__}")
+    return events

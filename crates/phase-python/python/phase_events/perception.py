@@ -5,9 +5,14 @@ import json
 import numpy as np
 
 from . import _native
+from ._check import floats, seed_of, text, whole
 from ._native import PhaseError
+from .events import MOST_STEPS, Event
 from .scenes import scene as as_scene
-from .scenes import seed_of
+
+
+MOST_DECISIONS = 1_000_000
+"""The greatest number of decisions that :meth:`Observer.push` may simulate: hours."""
 
 
 def methods():
@@ -43,11 +48,12 @@ def infer(event, *, method="simple", seed=0, steps=None):
         PhaseError: for an unknown method, and an event without motion.
         KeyboardInterrupt: between two simulations.
     """
-    if steps is not None and (not isinstance(steps, int) or steps < 1):
-        raise PhaseError(f"steps is a whole number of at least 1, not {steps!r}")
+    _check_event(event)
+    if steps is not None:
+        steps = whole("steps", steps, 1, MOST_STEPS)
     if event.steps < 1:
         raise PhaseError(f"the event {event.id} has no step to infer from")
-    return _answer(_native.infer(event.native, method, seed_of(seed), steps))
+    return _answer(_native.infer(event.native, text("method", method), seed_of(seed), steps))
 
 
 def forecast(event, *, method="simple", watched=20, steps=20, seed=0):
@@ -68,12 +74,11 @@ def forecast(event, *, method="simple", watched=20, steps=20, seed=0):
         PhaseError: for an unknown method or an invalid number of steps.
         KeyboardInterrupt: between two simulations.
     """
-    for name, number in (("watched", watched), ("steps", steps)):
-        if not isinstance(number, int) or not 1 <= number <= 10_000:
-            raise PhaseError(f"{name} is a whole number from 1 to 10000, not {number!r}")
+    _check_event(event)
+    watched, steps = whole("watched", watched, 1, MOST_STEPS), whole("steps", steps, 1, MOST_STEPS)
     if watched > event.steps:
         raise PhaseError(f"the event {event.id} has {event.steps} steps; {watched} cannot be watched")
-    answer = json.loads(_native.forecast(event.native, method, watched, steps, seed_of(seed)))
+    answer = json.loads(_native.forecast(event.native, text("method", method), watched, steps, seed_of(seed)))
     entities = event.trajectory.shape[1]
     futures = np.array(answer["futures"], dtype=np.float32).reshape(-1, entities, steps, 2)
     return {"forecast": np.array(answer["forecast"], dtype=np.float32), "futures": futures}
@@ -90,7 +95,7 @@ class Observer:
         scene: a scene, as of :func:`phase_events.scene`, of which only walls and sizes are looked at.
         row: the first row, (entities, 5): x, y (u), vx, vy (u/s), angle (rad) of each entity, agents first.
         seed: a whole number from 0 to 2**64 - 1, for its random draws.
-        decisions: the number of decisions of minds that :meth:`push` may simulate for a row; each takes some milliseconds. ``None``
+        decisions: the number of decisions of minds that :meth:`push` may simulate for a row, at least 0; each takes some milliseconds. ``None``
             for 20, which is less than the 0.25 s that a step lasts.
 
     Raises:
@@ -98,8 +103,9 @@ class Observer:
     """
 
     def __init__(self, scene, row, *, seed=0, decisions=None):
-        row = np.ascontiguousarray(row, dtype=np.float32)
-        self._native = _native.Observer(as_scene(scene), _two(row), seed_of(seed), decisions)
+        if decisions is not None:
+            decisions = whole("decisions", decisions, 0, MOST_DECISIONS)
+        self._native = _native.Observer(as_scene(scene), floats("a row", row, (-1, 5)), seed_of(seed), decisions)
 
     def push(self, row):
         """Watches the next row, 0.25 s later, and answers with limited effort.
@@ -113,7 +119,7 @@ class Observer:
         Raises:
             PhaseError: for a row of another shape, or with numbers that are not finite.
         """
-        return _answer(self._native.push(_two(np.ascontiguousarray(row, dtype=np.float32))))
+        return _answer(self._native.push(floats("a row", row, (-1, 5))))
 
     def inference(self):
         """The answer of :func:`infer` for the rows seen so far, with as much effort as it takes.
@@ -124,10 +130,9 @@ class Observer:
         return _answer(self._native.inference())
 
 
-def _two(row):
-    if row.ndim != 2:
-        raise PhaseError(f"a row has the shape (entities, 5), not {row.shape}")
-    return row
+def _check_event(event):
+    if not isinstance(event, Event):
+        raise PhaseError(f"an event is an Event, not {type(event).__name__}")
 
 
 def _answer(text):

@@ -1,7 +1,8 @@
 """Policies: from an agent's observation to its action.
 
 A policy is anything that is called with an observation and returns the number of an action. If it has a method
-``reset(scene, agent, seed)``, environments call that at the start of every episode.
+``reset(scene, agent, seed)``, environments call that at the start of every episode. Those of this module can be copied and pickled at any
+time: a copy goes on as the original does.
 """
 
 import json
@@ -9,10 +10,10 @@ import json
 import numpy as np
 
 from . import _native
-from ._native import ACTIONS, PhaseError
+from ._check import as_action, floats, seed_of, to_json, whole
+from ._native import ACTIONS, OBSERVATION_SIZE, PhaseError
 from .observation import split_observation
 from .scenes import scene as as_scene
-from .scenes import seed_of
 
 _STOP = ACTIONS.index("stop")
 _ATTACH = ACTIONS.index("attach")
@@ -51,7 +52,7 @@ class Mind:
     """
 
     def __init__(self, scene=None, agent=0, seed=0, parameters=None):
-        self._parameters = None if parameters is None else json.dumps(parameters)
+        self._parameters = None if parameters is None else to_json("parameters", parameters)
         self._mind = None
         if scene is not None:
             self.reset(scene, agent, seed)
@@ -65,7 +66,7 @@ class Mind:
         Raises:
             PhaseError: for an invalid scene, agent, seed or parameter.
         """
-        self._mind = _native.Mind(as_scene(scene), agent, seed_of(seed), self._parameters)
+        self._mind = _native.Mind(as_scene(scene), whole("agent", agent, 0, 1), seed_of(seed), self._parameters)
 
     @property
     def native(self):
@@ -91,10 +92,8 @@ class Mind:
         Raises:
             PhaseError: before the mind has a scene, for an invalid action, and for numbers that are no observation of its agent.
         """
-        observation = np.ascontiguousarray(observation, dtype=np.float32)
-        if observation.ndim != 1:
-            raise PhaseError(f"an observation has one dimension, not the shape {observation.shape}")
-        return self.native.decide(observation, None if action is None else int(action))
+        observation = floats("an observation", observation, (OBSERVATION_SIZE,))
+        return self.native.decide(observation, None if action is None else as_action(action))
 
     __call__ = decide
 
@@ -138,7 +137,7 @@ class RandomPolicy:
 
     def reset(self, scene, agent, seed):
         """Begins an episode: draws follow from its seed and from the agent's number."""
-        self._random = np.random.default_rng((seed_of(seed), agent))
+        self._random = np.random.default_rng((seed_of(seed), whole("agent", agent, 0, 1)))
 
     def __call__(self, observation):
         return int(self._random.integers(len(ACTIONS)))
@@ -159,15 +158,19 @@ class ReplayPolicy:
         agent: the agent whose actions are taken from an event, 0 or 1.
 
     Raises:
-        PhaseError: for an event without actions.
+        PhaseError: for an event without actions, and for an invalid action.
     """
 
     def __init__(self, actions, agent=1):
         if hasattr(actions, "actions"):
             if actions.actions is None:
                 raise PhaseError(f"the event {actions.id} has no actions to repeat")
-            actions = actions.actions[:, agent]
-        self._actions = [int(action) for action in actions]
+            actions = actions.actions[:, whole("agent", agent, 0, 1)]
+        try:
+            actions = list(actions)
+        except TypeError:
+            raise PhaseError(f"actions are a sequence or an event, not {actions!r}") from None
+        self._actions = [as_action(action) for action in actions]
         self._next = 0
 
     def reset(self, scene, agent, seed):

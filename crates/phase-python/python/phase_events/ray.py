@@ -12,9 +12,13 @@ from pathlib import Path
 import ray
 
 from . import command
+from ._check import choice, path_of, seed_of, text, whole
 from ._native import PhaseError
+from .perception import methods
 
 RETRIES = 5
+MOST_RETRIES = 1000
+MOST_SHARDS = 100_000
 # Seconds that the other shards have to end by themselves after a failure, as they do where the input is at fault. To kill takes longer.
 GRACE = 1.0
 
@@ -35,9 +39,11 @@ def generate(preset="demo", events=None, out=None, *, shards=None, seed=None, vi
     Raises:
         PhaseError: with the sentence of the command line.
     """
-    out = Path(out) if out is not None else None
     if out is None:
         raise PhaseError("out: a folder for the dataset is needed")
+    out = Path(path_of(out))
+    retries = whole("retries", retries, 0, MOST_RETRIES)
+    events = None if events is None else whole("events", events, 1, 2**32 - 1)
     count = _shards(shards, events)
 
     def make(k):
@@ -69,16 +75,17 @@ def evaluate(method, events, out, *, task="goals", split=None, shards=None, seed
     Raises:
         PhaseError: with the sentence of the command line.
     """
-    out, events = Path(out), os.fspath(events)
+    out, events = Path(path_of(out)), path_of(events)
+    retries = whole("retries", retries, 0, MOST_RETRIES)
+    choice("task", task, tuple(methods()))
     count = _shards(shards, None)
-    common = ["eval", task, "--method", method, "--events", events, "--seed", str(seed), "--quiet"]
+    common = ["eval", task, "--method", text("method", method), "--events", events, "--seed", seed_of(seed), "--quiet"]
     if split is not None:
-        common += ["--split", split]
+        common += ["--split", text("split", split)]
 
     def make(k):
         folder = _parts(out) / f"{k:05d}"
-        with command._silent_output(True):
-            command.run(*common, "--out", folder, "--shard", f"{k}/{count}", "--jobs", "1")
+        command._run([*common, "--out", folder, "--shard", f"{k}/{count}", "--jobs", "1"], silent=True)
         return str(folder)
 
     folders = _run(make, count, retries)
@@ -94,8 +101,7 @@ def _shards(shards, events):
     if not ray.is_initialized():
         ray.init()
     count = shards if shards is not None else 4 * int(ray.cluster_resources().get("CPU", 1))
-    if not isinstance(count, int) or count < 1:
-        raise PhaseError(f"shards is a whole number of at least 1, not {count!r}")
+    count = whole("shards", count, 1, MOST_SHARDS)
     return count if events is None else min(count, events)
 
 
@@ -132,6 +138,5 @@ def _run(make, count, retries):
 
 
 def _merge(arguments, out):
-    with command._silent_output(True):
-        command.run(*arguments)
+    command._run(arguments, silent=True)
     shutil.rmtree(_parts(out), ignore_errors=True)

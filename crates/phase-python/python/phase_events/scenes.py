@@ -1,9 +1,11 @@
 """Scenes: walls, bodies, goals and attitudes."""
 
-import json
 from collections.abc import Mapping
 
+from ._check import path_of, seed_of, text, to_json
 from ._native import PhaseError, Scene
+
+KINDS = ("helping", "hindering", "chasing", "competing", "collaborating", "independent")
 
 
 def scene(description):
@@ -26,13 +28,10 @@ def scene(description):
     if isinstance(description, Scene):
         return description
     if isinstance(description, Mapping):
-        try:
-            description = json.dumps(description)
-        except (TypeError, ValueError) as error:
-            raise PhaseError(f"the scene is no JSON: {error}") from error
+        description = to_json("the scene", dict(description))
     if not isinstance(description, str):
         raise PhaseError(f"a scene is a Scene, a dict or JSON text, not {type(description).__name__}")
-    return Scene.from_json(description)
+    return Scene.from_json(text("a scene", description))
 
 
 def sample_scene(kind=None, *, variant=None, preset=None, seed=0):
@@ -52,29 +51,12 @@ def sample_scene(kind=None, *, variant=None, preset=None, seed=0):
     """
     seed = seed_of(seed)
     if preset is None:
+        kind = None if kind is None else text("kind", kind)
+        variant = None if variant is None else text("variant", variant)
         return Scene.sample(kind, variant, seed)
     if kind is not None or variant is not None:
         raise PhaseError("a preset draws the kind and the variant itself; give either a preset or these")
-    return Scene.sample_preset(str(preset), seed)
-
-
-def seed_of(seed):
-    """A seed as an ``int``.
-
-    Args:
-        seed: a whole number from 0 to 2**64 - 1, of any type.
-
-    Raises:
-        PhaseError: for anything else.
-    """
-    try:
-        number = int(seed)
-        exact = number == seed
-    except (TypeError, ValueError, OverflowError):
-        exact = False
-    if not exact or not 0 <= number < 2**64:
-        raise PhaseError(f"a seed is a whole number from 0 to 2**64 - 1, not {seed!r}")
-    return number
+    return Scene.sample_preset(text("preset", path_of(preset)), seed)
 
 
 def as_source(scenes):
@@ -90,20 +72,43 @@ def as_source(scenes):
     Raises:
         PhaseError: for an empty list, and for anything that is not a scene.
     """
-    kinds = ("helping", "hindering", "chasing", "competing", "collaborating", "independent")
-    if scenes is None:
-        return lambda seed: sample_scene(seed=seed)
-    if isinstance(scenes, str) and scenes in kinds:
-        return lambda seed: sample_scene(scenes, seed=seed)
+    if scenes is None or isinstance(scenes, str) and scenes in KINDS:
+        return _Sampled(kind=scenes)
     if isinstance(scenes, str) and (scenes.startswith("preset:") or scenes.endswith(".json")):
-        name = scenes.removeprefix("preset:")
-        return lambda seed: sample_scene(preset=name, seed=seed)
+        return _Sampled(preset=scenes.removeprefix("preset:"))
     if callable(scenes):
-        return lambda seed: scene(scenes(seed))
+        return _Made(scenes)
+    if isinstance(scenes, str) and not scenes.lstrip().startswith("{"):
+        raise PhaseError(f"scenes are {', '.join(KINDS)}, preset:NAME, a file of a preset, or scenes, not {scenes!r}")
     if isinstance(scenes, (list, tuple)):
         if not scenes:
             raise PhaseError("the list of scenes is empty")
-        listed = [scene(one) for one in scenes]
-        return lambda seed: listed[seed % len(listed)]
-    fixed = scene(scenes)
-    return lambda seed: fixed
+        return _Listed([scene(one) for one in scenes])
+    return _Listed([scene(scenes)])
+
+
+# Classes, not functions within a function, which could not be pickled.
+
+
+class _Sampled:
+    def __init__(self, **drawn):
+        self._drawn = drawn
+
+    def __call__(self, seed):
+        return sample_scene(seed=seed, **self._drawn)
+
+
+class _Made:
+    def __init__(self, make):
+        self._make = make
+
+    def __call__(self, seed):
+        return scene(self._make(seed))
+
+
+class _Listed:
+    def __init__(self, scenes):
+        self._scenes = scenes
+
+    def __call__(self, seed):
+        return self._scenes[seed % len(self._scenes)]

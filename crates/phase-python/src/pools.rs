@@ -1,0 +1,58 @@
+//! Pools of threads, which a forked process makes anew.
+//!
+//! A fork copies the process with one thread: in the child a pool of the parent has no threads any more, and
+//! whoever gave it work would wait for ever.
+
+use crate::error::raise;
+use pyo3::prelude::*;
+use rayon::ThreadPool;
+use std::{
+    collections::BTreeMap,
+    process,
+    sync::{Arc, Mutex, PoisonError},
+};
+
+/// The greatest number of threads of a pool.
+const MOST_THREADS: usize = 1024;
+
+/// The pools of one process, by their numbers of threads.
+struct Pools {
+    process: u32,
+    by_threads: BTreeMap<usize, Arc<ThreadPool>>,
+}
+
+/// It is locked only by whoever holds the interpreter's lock, as whoever forks does. So it is free in every
+/// child.
+static POOLS: Mutex<Pools> = Mutex::new(Pools { process: 0, by_threads: BTreeMap::new() });
+
+/// Checks a number of threads.
+///
+/// # Errors
+/// `PhaseError`, if it is not 1 to [`MOST_THREADS`].
+pub(crate) fn check_threads(threads: usize) -> PyResult<()> {
+    if (1..=MOST_THREADS).contains(&threads) {
+        return Ok(());
+    }
+    Err(raise(format!("threads is a whole number from 1 to {MOST_THREADS}, not {threads}")))
+}
+
+/// The pool of a number of threads in this process.
+///
+/// # Errors
+/// `PhaseError`, if the number is out of range or the system has not that many threads.
+pub(crate) fn pool(_: Python<'_>, threads: usize) -> PyResult<Arc<ThreadPool>> {
+    check_threads(threads)?;
+    let mut pools = POOLS.lock().unwrap_or_else(PoisonError::into_inner);
+    if pools.process != process::id() {
+        // To drop a pool is to talk to its threads, which are not there.
+        core::mem::forget(core::mem::take(&mut pools.by_threads));
+        pools.process = process::id();
+    }
+    if let Some(pool) = pools.by_threads.get(&threads) {
+        return Ok(Arc::clone(pool));
+    }
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+    let pool = Arc::new(pool.map_err(|error| raise(format!("threads: {error}")))?);
+    pools.by_threads.insert(threads, Arc::clone(&pool));
+    Ok(pool)
+}
