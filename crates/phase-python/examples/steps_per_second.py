@@ -48,7 +48,7 @@ def phase_single(engine):
 
 
 def phase_vector(worlds, engine, observation="view"):
-    env = PhaseVectorEnv(worlds, engine=engine, threads=1, observation=observation)
+    env = PhaseVectorEnv(worlds, engine=engine, threads=1, observation=observation, pool=128, copy=False)
     env.reset(seed=1)
     actions = np.random.default_rng(0).integers(14, size=(50, 2 * worlds))
     k = iter(range(10**9))

@@ -22,8 +22,20 @@ PATIENCE = 60
 
 def in_child(context, function, *arguments):
     """The result of a function in a process of its own; an error if it does not come."""
-    with multiprocessing.get_context(context).Pool(1) as pool:
-        return pool.apply_async(function, arguments).get(timeout=PATIENCE)
+    context = multiprocessing.get_context(context)
+    here, there = context.Pipe()
+    child = context.Process(target=answer, args=(there, function, arguments), daemon=True)
+    child.start()
+    try:
+        assert here.poll(PATIENCE), "the child waits for ever"
+        return here.recv()
+    finally:
+        child.kill()
+        child.join()
+
+
+def answer(connection, function, arguments):
+    connection.send(function(*arguments))
 
 
 @copies

@@ -1,5 +1,8 @@
 """Environments: other people's conformance tests, and what PHASE promises beyond them."""
 
+import signal
+import subprocess
+import sys
 
 import gymnasium
 import numpy as np
@@ -21,6 +24,7 @@ from phase_events.env import PhaseEnv, PhaseParallelEnv
 from phase_events.observation import split_observation
 
 
+@pytest.mark.filterwarnings("ignore:the option 'options' has no effect:UserWarning")
 def test_parallel_api():
     parallel_api_test(PhaseParallelEnv(), num_cycles=250)
 
@@ -29,6 +33,7 @@ def test_parallel_seeds():
     parallel_seed_test(PhaseParallelEnv)
 
 
+@pytest.mark.filterwarnings("ignore:the option 'options' has no effect:UserWarning")
 @pytest.mark.filterwarnings("ignore:Agent's (min|max)imum observation space:UserWarning")
 def test_aec_api():
     api_test(phase_v0.env(), num_cycles=250)
@@ -45,6 +50,20 @@ def test_max_cycles():
 def test_render():
     pytest.importorskip("pygame")
     render_test(phase_v0.env)
+
+
+def test_a_process_with_a_window_can_be_ended():
+    pytest.importorskip("pygame")
+    program = """
+import os, signal, time
+from phase_events.env import PhaseEnv
+env = PhaseEnv("chasing", partner="still", render_mode="human")
+env.reset(seed=1)
+os.kill(os.getpid(), signal.SIGTERM)
+time.sleep(5)
+"""
+    done = subprocess.run([sys.executable, "-c", program], check=False, timeout=60, capture_output=True)
+    assert done.returncode == -signal.SIGTERM, done.stderr
 
 
 @pytest.mark.filterwarnings("ignore:.*(infinity|spec).*:UserWarning")

@@ -8,7 +8,9 @@ and C(a) is -0.02 for the seven pushes that are not forward, otherwise 0. Episod
 Environments can be copied and pickled at any time. A copy goes on as the original does: its world repeats the actions so far.
 """
 
+import copy
 import inspect
+import os
 import warnings
 from collections.abc import Mapping
 
@@ -157,6 +159,8 @@ class Arena:
             raise gymnasium.error.DependencyNotInstalled("render_mode='human' needs pygame: pip install pygame") from error
         height, width, _ = picture.shape
         if self._window is None:
+            # SDL would have SIGTERM for itself, and nobody could end this process, or one that is forked from it, by asking.
+            os.environ.setdefault("SDL_NO_SIGNAL_HANDLERS", "1")
             pygame.init()
             pygame.display.set_caption("PHASE")
             self._window = (pygame.display.set_mode((width, height)), pygame.time.Clock())
@@ -216,11 +220,11 @@ def read_options(options, known):
 
 
 def as_policy(partner):
-    """A policy by its name, or the policy itself.
+    """A policy for an environment of its own.
 
     Args:
-        partner: ``phase``, ``heuristic``, ``random``, ``still``, a function from an observation to an action, or one without arguments
-            (or a class) that makes such a policy.
+        partner: ``phase``, ``heuristic``, ``random``, ``still``, a policy, of which one with ``reset`` is copied, or a function without
+            arguments (or a class) that makes one.
 
     Raises:
         PhaseError: for anything else.
@@ -228,9 +232,13 @@ def as_policy(partner):
     named = {"phase": Mind, "heuristic": HeuristicPolicy, "random": RandomPolicy, "still": StillPolicy}
     if isinstance(partner, str) and partner in named:
         return named[partner]()
-    made = partner() if callable(partner) and _makes_policies(partner) else partner
-    if callable(made):
-        return made
+    if callable(partner) and _makes_policies(partner):
+        partner = partner()
+    elif hasattr(partner, "reset"):
+        # It knows its episode: two environments cannot share it.
+        partner = copy.deepcopy(partner)
+    if callable(partner):
+        return partner
     raise PhaseError(f"a partner is {', '.join(named)}, or a function of the observation, not {partner!r}")
 
 
@@ -394,7 +402,8 @@ class PhaseEnv(gymnasium.Env):
         scenes, observation, engine, max_steps, render_mode, side: as of :class:`PhaseParallelEnv`.
         agent: which agent is the learner's, 0 or 1.
         partner: ``phase`` (a mind with the paper's settings), ``heuristic``, ``random``, ``still``, or a policy, such as
-            ``Mind(parameters={"simulations": 100})`` or ``ReplayPolicy(event)``.
+            ``Mind(parameters={"simulations": 100})`` or ``ReplayPolicy(event)``. One with ``reset`` is copied; policies that share
+            something, such as weights, are made by a function without arguments.
 
     ``gymnasium.make("PHASE-v0", …)`` makes it, and ``gymnasium.make_vec`` many of them, in one call
     (:class:`phase_events.vector.PhaseVectorEnv`), one after the other or in processes: all with the same episodes for the same seeds.
@@ -426,8 +435,13 @@ class PhaseEnv(gymnasium.Env):
 
     @property
     def scene(self):
-        """The :class:`Scene` of the episode."""
+        """The :class:`Scene` of the episode; ``None`` before the first one."""
         return self._arena.scene
+
+    @property
+    def partner(self):
+        """The policy of the other agent, such as a :class:`~phase_events.policies.Mind` with its thoughts."""
+        return self._partner
 
     def reset(self, *, seed=None, options=None):
         """Begins an episode; the partner is reset with its scene and seed.

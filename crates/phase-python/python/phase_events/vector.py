@@ -1,6 +1,5 @@
 """Many worlds at once, stepped in one call, as a Gymnasium vector environment. It needs ``phase-events[env]``."""
 
-import copy as copying
 import os
 
 import gymnasium
@@ -45,7 +44,7 @@ class PhaseVectorEnv(gymnasium.vector.VectorEnv):
         worlds: the number of worlds, 1 to 65536.
         scenes: as of :class:`~phase_events.env.PhaseParallelEnv`.
         agent: the learner, 0 or 1, or ``None`` for both.
-        partner: drives the other agent: as of :class:`~phase_events.env.PhaseEnv`. Each world has a copy of its own.
+        partner: drives the other agent: as of :class:`~phase_events.env.PhaseEnv`.
         pool: the number of different scenes, drawn once after every reset with a seed, of which each episode has one; ``None`` draws
             a scene for every episode.
         observation, engine, max_steps, side: as of :class:`~phase_events.env.PhaseParallelEnv`.
@@ -105,8 +104,8 @@ class PhaseVectorEnv(gymnasium.vector.VectorEnv):
         self.single_action_space = spaces.Discrete(len(ACTIONS))
         self.observation_space = batch_space(self.single_observation_space, self.num_envs)
         self.action_space = batch_space(self.single_action_space, self.num_envs)
-        policy = as_policy(partner)
-        self._partners = [] if agent is None else [copying.deepcopy(policy) for _ in range(worlds)]
+        policies = [as_policy(partner) for _ in range(worlds)]
+        self._partners = [] if agent is None else policies
         self._minds_alone = bool(self._partners) and all(isinstance(partner, Mind) for partner in self._partners)
         self._randoms = [np.random.default_rng() for _ in range(worlds)]
         self._worlds, self._scenes, self._closed = None, [None] * worlds, False

@@ -46,8 +46,8 @@ impl<M: ?Sized, A: Clone> AnswerSource<M, A> {
     ) -> Result<Self, RunError> {
         match answers {
             Answers::Predictions(path) => {
-                let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-                Ok(Self { name, kind: Kind::PredictionsFile(file(path)?) })
+                let given = file(path)?;
+                Ok(Self { name: given.name.clone(), kind: Kind::PredictionsFile(given) })
             }
             Answers::Method { name, weights, minds } => {
                 Ok(Self::of_method(&minds.name(name), method(name, weights.as_deref(), minds)?))
@@ -110,6 +110,8 @@ impl<M: ?Sized, A: Clone> AnswerSource<M, A> {
 
 /// The answers of a file, one for each requested event.
 pub(super) struct PredictionsFile<A> {
+    /// The name of the method: the file's member `method`, or else the file's name without its ending.
+    name: String,
     answers: BTreeMap<String, A>,
     sha256: String,
 }
@@ -129,6 +131,14 @@ impl<A> PredictionsFile<A> {
         let value = json::read(file)?;
         let fail =
             |error: EventReadError| FileError { file: file.to_owned(), problem: Problem::content(error) };
+        let name = match value.get("method") {
+            None | Some(Value::Null) => file.file_stem().unwrap_or_default().to_string_lossy().into_owned(),
+            Some(Value::String(name)) => name.clone(),
+            Some(_) => {
+                let problem = FieldError { field: "method".into(), rule: "must be text".into() };
+                return Err(fail(EventReadError::Field { event: None, problem }).into());
+            }
+        };
         let mut others = parse(&value).map_err(fail)?;
         if let Some(event) = input.events.iter().find(|event| !others.contains_key(&event.id)) {
             return Err(RunError::unknown_id(file, &event.id, others.keys().map(String::as_str)));
@@ -143,6 +153,6 @@ impl<A> PredictionsFile<A> {
             let others = others.len();
             listener.note(&format!("note: {}: {others} of its events are not evaluated", file.display()));
         }
-        Ok(Self { answers, sha256: hexadecimal(&sha256(value.to_string().as_bytes())) })
+        Ok(Self { name, answers, sha256: hexadecimal(&sha256(value.to_string().as_bytes())) })
     }
 }
