@@ -98,3 +98,64 @@ impl Interface for Command {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::Cli;
+    use clap::{Command, CommandFactory, error::ErrorKind};
+
+    /// Options that name something by a number, or take numbers that are not bounded: seeds, shares of a
+    /// whole, amounts beyond which nothing changes.
+    const WITHOUT_BOUNDS: [&str; 9] =
+        ["seed", "resimulate", "resimulate-seed", "shard", "id", "belief", "videos", "catch", "watched"];
+
+    fn leaves(command: &Command, words: &[String], found: &mut Vec<(Vec<String>, Command)>) {
+        if !command.has_subcommands() {
+            found.push((words.to_vec(), command.clone()));
+        }
+        for below in command.get_subcommands() {
+            let words: Vec<String> = words.iter().cloned().chain([below.get_name().to_owned()]).collect();
+            leaves(below, &words, found);
+        }
+    }
+
+    /// Every option that takes a number says in its help which ones, and takes no others.
+    #[test]
+    fn the_help_of_a_number_states_its_bounds() {
+        let mut found = Vec::new();
+        leaves(&Cli::command(), &["phase".into()], &mut found);
+        let mut checked = 0;
+        for (words, command) in found {
+            let is_refused = |option: &str, value: &str| {
+                let line = words.iter().cloned().chain([format!("--{option}={value}")]);
+                let refused = Cli::command().try_get_matches_from(line);
+                refused.is_err_and(|error| error.kind() == ErrorKind::ValueValidation)
+            };
+            for argument in command.get_arguments() {
+                let Some(option) = argument.get_long().filter(|name| !WITHOUT_BOUNDS.contains(name)) else {
+                    continue;
+                };
+                if !argument.get_action().takes_values()
+                    || is_refused(option, "1") && is_refused(option, "5")
+                    || !is_refused(option, "x")
+                {
+                    continue;
+                }
+                let help = argument.get_help().map(ToString::to_string).unwrap_or_default();
+                let words: Vec<&str> = help.split([' ', ',', ';', ':']).collect();
+                let bounds = words.windows(3).find_map(|three| match three {
+                    [low, "to", high] => Some((low.parse::<u64>().ok()?, high.parse::<u64>().ok()?)),
+                    _ => None,
+                });
+                let (low, high) = bounds.unwrap_or_else(|| panic!("--{option} has no bounds: {help}"));
+                for (value, fits) in [(low, true), (high, true), (high + 1, false)] {
+                    let refused = is_refused(option, &value.to_string());
+                    assert_eq!(refused, !fits, "--{option}={value} and its help: {help}");
+                }
+                assert!(low == 0 || is_refused(option, &(low - 1).to_string()), "--{option}: {help}");
+                checked += 1;
+            }
+        }
+        assert!(checked > 20, "{checked}");
+    }
+}

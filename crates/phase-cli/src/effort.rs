@@ -5,8 +5,8 @@ use clap::{
     builder::{PossibleValuesParser, TypedValueParser},
     value_parser,
 };
-use phase_minds::{Foresight, MindKind};
-
+use phase_minds::{Foresight, MindKind, PARTICLES, SIMULATIONS};
+use phase_model::setting::EVENT_STEPS;
 use phase_runs::{
     effort::{Effort, MindChoice},
     error::RunError,
@@ -52,14 +52,14 @@ pub struct SimulationOptions {
     /// [default: coarse]
     #[arg(long, value_name = "HOW", hide_possible_values = true, value_parser = foresights())]
     pub foresight: Option<Foresight>,
-    /// Belief particles of each agent [default: 50]
-    #[arg(long, value_name = "K", value_parser = value_parser!(u32).range(1..=100_000))]
+    /// Belief particles of each agent, 1 to 100000 [default: 50]
+    #[arg(long, value_name = "K", value_parser = value_parser!(u32).range(PARTICLES.bounds()))]
     pub particles: Option<u32>,
-    /// POMCP simulations a decision [default: 1000]
-    #[arg(long, value_name = "N", value_parser = value_parser!(u32).range(1..=10_000_000))]
+    /// POMCP simulations a decision, 1 to 1000000 [default: 1000]
+    #[arg(long, value_name = "N", value_parser = value_parser!(u32).range(SIMULATIONS.bounds()))]
     pub simulations: Option<u32>,
-    /// Maximum length of an event, in steps of 0.25 s [default: 100]
-    #[arg(long, value_name = "N", value_parser = value_parser!(u32).range(1..=10_000))]
+    /// Maximum length of an event, in steps of 0.25 s, 1 to 10000 [default: 100]
+    #[arg(long, value_name = "N", value_parser = value_parser!(u32).range(EVENT_STEPS.bounds()))]
     pub max_steps: Option<u32>,
 }
 

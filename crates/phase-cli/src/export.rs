@@ -3,6 +3,7 @@
 use crate::{context::Context, error::CliError, interrupt, output::Output};
 use clap::{Args, value_parser};
 use phase_files::told;
+use phase_model::setting::EVENTS;
 use phase_runs::export::{Exported, export};
 use serde_json::json;
 use std::path::PathBuf;
@@ -16,12 +17,12 @@ pub struct Export {
     /// Folder for the tar files; new, empty, or of the same export
     #[arg(long, value_name = "DIR")]
     pub out: PathBuf,
-    /// Events in a tar file
+    /// Events in a tar file, 1 to 1000000
     #[arg(
         long,
         value_name = "N",
         default_value_t = 500,
-        value_parser = value_parser!(u32).range(1..=1_000_000)
+        value_parser = value_parser!(u32).range(EVENTS.bounds())
     )]
     pub events_per_file: u32,
     /// Form in which the result is printed.

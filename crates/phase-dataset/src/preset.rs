@@ -8,6 +8,7 @@ use phase_model::{
     json::parse_as,
     layout::USED_BASES,
     random::{self, Purpose},
+    setting::{EVENT_STEPS, EVENTS, RangeError, Setting},
 };
 use phase_sampler::{About, Stance, Variant};
 use serde::Deserialize;
@@ -19,12 +20,10 @@ use std::{
 /// The value of the field `format` of preset files.
 pub const PRESET_FORMAT: &str = "phase-preset/3";
 
-/// Most events of a dataset: their descriptions are in memory at once.
-pub(crate) const MOST_EVENTS: usize = 1_000_000;
-/// Longest event of a dataset (steps).
-pub const MOST_STEPS: usize = 10_000;
-/// Most scenes that are tried for an event.
-const MOST_ATTEMPTS: usize = 1_000_000;
+/// Scenes that are tried for an event before a run gives up; a selection takes at most some hundreds.
+const ATTEMPTS: Setting = Setting::whole("attempts", "", 1, 1_000_000);
+/// Least length of an event.
+const MIN_STEPS: Setting = Setting::whole("min_steps", "steps", 0, 10_000);
 
 /// A recipe for a dataset, as `data/presets/NAME.json` has it (`phase-preset/3`).
 ///
@@ -197,16 +196,15 @@ impl Preset {
                     .into(),
             );
         }
-        self.check_counts()?;
-        if self.groups.iter().any(|group| group.events == 0) {
-            return Err("field `events` of a group must not be 0".into());
-        }
+        self.check_counts().map_err(|error| error.to_string())?;
+        let events = self.events();
+        EVENTS.check_count(events).map_err(|error| format!("{}, in all", error.rule()))?;
         if let Some(blocks) = &self.blocks {
             if blocks.columns.is_empty() || blocks.columns.iter().any(Vec::is_empty) {
                 return Err("field `columns` of `blocks` must not be empty, nor any of its lists".into());
             }
-            if blocks.groups.is_empty() || blocks.groups.iter().any(|group| group.blocks == 0) {
-                return Err("fields `groups` and `blocks` of `blocks` must not be empty".into());
+            if blocks.groups.is_empty() {
+                return Err("field `groups` of `blocks` must not be empty".into());
             }
         }
         for (name, bases) in &self.layouts {
@@ -220,32 +218,31 @@ impl Preset {
         if let Some(name) = named.find(|name| self.layouts.get(*name).is_none_or(Vec::is_empty)) {
             return Err(format!("there are no layouts of the name {name:?}"));
         }
-        if self.selection.is_some_and(|it| it.attempts == 0 || it.min_steps > it.max_steps) {
-            return Err("selection needs an attempt, and min_steps no greater than max_steps".into());
+        if self.selection.is_some_and(|it| it.min_steps > it.max_steps) {
+            return Err("selection needs min_steps no greater than max_steps".into());
         }
         Ok(())
     }
 
     /// That counts are of a size that memory and time allow.
-    fn check_counts(&self) -> Result<(), String> {
-        let within = |field: &str, count: usize, most: usize| {
-            if count <= most {
-                Ok(())
-            } else {
-                Err(format!("field `{field}` must be at most {most}, not {count}"))
-            }
+    fn check_counts(&self) -> Result<(), RangeError> {
+        let count = |setting: Setting, count: usize, path: String| {
+            setting.check_count(count).map(|_| ()).map_err(|error| error.within(&path))
         };
-        self.groups.iter().try_for_each(|group| within("events", group.events, MOST_EVENTS))?;
-        let blocks = self.blocks.iter().flat_map(|blocks| &blocks.groups);
-        blocks.into_iter().try_for_each(|group| within("blocks", group.blocks, MOST_EVENTS))?;
-        self.sets.iter().try_for_each(|group| within("sets", group.sets, MOST_EVENTS))?;
-        if let Some(selection) = self.selection {
-            within("max_steps", selection.max_steps, MOST_STEPS)?;
-            within("attempts", selection.attempts, MOST_ATTEMPTS)?;
+        for (k, group) in self.groups.iter().enumerate() {
+            count(EVENTS, group.events, format!("groups[{k}]"))?;
         }
-        let events = self.events();
-        if events > MOST_EVENTS {
-            return Err(format!("must have at most {MOST_EVENTS} events in all, not {events}"));
+        let blocks = self.blocks.iter().flat_map(|blocks| &blocks.groups);
+        for (k, group) in blocks.enumerate() {
+            count(Setting { name: "blocks", ..EVENTS }, group.blocks, format!("blocks.groups[{k}]"))?;
+        }
+        for (k, group) in self.sets.iter().enumerate() {
+            count(Setting { name: "sets", ..EVENTS }, group.sets, format!("sets[{k}]"))?;
+        }
+        if let Some(selection) = self.selection {
+            count(MIN_STEPS, selection.min_steps, "selection".into())?;
+            count(EVENT_STEPS, selection.max_steps, "selection".into())?;
+            count(ATTEMPTS, selection.attempts, "selection".into())?;
         }
         Ok(())
     }
@@ -276,9 +273,6 @@ impl Preset {
 
 impl SetGroup {
     fn check(&self) -> Result<(), String> {
-        if self.sets == 0 {
-            return Err("field `sets` of a group of sets must not be 0".into());
-        }
         let distinct: BTreeSet<Stance> = self.stances.iter().copied().collect();
         if distinct.len() < 2 || distinct.len() != self.stances.len() {
             return Err("field `stances` must name two or more different stances".into());

@@ -2,14 +2,17 @@
 
 use crate::{
     ExportError,
-    preset::{MOST_EVENTS, slot_id},
+    preset::slot_id,
     slot_record::{Records, SlotRecord},
 };
 use core::{iter::StepBy, ops::Range};
 use phase_files::{
     FileError, Problem, WriteError, atomic, checksum::FileEntry, json, measured::MeasuredFile, regular,
 };
-use phase_model::json::{check_format, parse_as};
+use phase_model::{
+    json::{check_format, parse_as},
+    setting::EVENTS,
+};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use std::{
@@ -99,9 +102,10 @@ impl Shard {
             let rule = format!("there is no shard {} of {}", shard.shard, shard.of);
             return Err(fail(Problem::Shape { what, rule }));
         }
-        if shard.whole.slots > MOST_EVENTS || shard.whole.events > MOST_EVENTS {
-            let rule = format!("a dataset has at most {MOST_EVENTS} events");
-            return Err(fail(Problem::Shape { what, rule }));
+        for count in [shard.whole.slots, shard.whole.events] {
+            if let Err(error) = EVENTS.check_count(count) {
+                return Err(fail(Problem::Shape { what, rule: error.to_string() }));
+            }
         }
         shard.slots.verify(folder)?;
         Ok(shard)

@@ -14,6 +14,10 @@ use phase_model::Vec2;
 /// are such ties, and rounding must not decide their direction.
 const TIE_TOLERANCE: f32 = 1e-5;
 
+/// Cosine of the angle to a wall's normal below which a push leads across the wall rather than along it. An agent that lies across
+/// a wall gets off it on the side of its centre of mass, even if it lies mostly on the other: there is no way through a wall.
+const ACROSS: f32 = 0.1;
+
 /// The first shape's side is the reference unless the second's gap exceeds this share of the first's plus
 /// this margin (u).
 const REFERENCE_BIAS: (f32, f32) = (0.98, 0.001);
@@ -154,7 +158,8 @@ pub(crate) fn wall_agent(wall: &Wall, agent: &BodyMotion, polygon: &Polygon) -> 
             (side, side_gap) = (k, separation);
         }
     }
-    let by_side = side_gap > REFERENCE_BIAS.0 * gap + REFERENCE_BIAS.1;
+    let by_side = side_gap > REFERENCE_BIAS.0 * gap + REFERENCE_BIAS.1
+        && !(polygon.normals[side].dot(wall_normal) > ACROSS && wall.is_beside(agent.centre));
     let (normal, face, incident) = if by_side {
         let next = (side + 1) % 4;
         (

@@ -7,6 +7,10 @@ use crate::{
 };
 use phase_model::{Segment, Vec2, arena};
 
+/// Distance of a centre of mass from a wall below which a body lies across the wall, in radii of the body. It is kept on its side,
+/// and not where it is: it may get off past the wall's end.
+const LYING_ACROSS: f32 = 0.5;
+
 impl World<'_> {
     /// Moves a body back if its centre of mass crossed one of the candidate walls or left the arena. Deeply
     /// overlapping bodies that push one another can cause this, since the solver only detects impacts of
@@ -34,12 +38,15 @@ impl World<'_> {
             }
             let before = wall.normal.dot(start - wall.a);
             let after = wall.normal.dot(motion.centre - wall.a);
-            if before * after > 0.0 || wall.is_point() {
+            // A body that began on the wall itself gets off it, to either side.
+            if before * after > 0.0 || before == 0.0 || wall.is_point() {
                 continue;
             }
             let path = Segment { a: start, b: motion.centre };
             if path.crosses(Segment { a: wall.a, b: wall.b }) {
-                motion.centre = start;
+                let along = motion.centre - wall.normal * (after - before);
+                let lies_across = before.abs() < LYING_ACROSS * self.model.shapes[body].radius;
+                motion.centre = if lies_across && self.model.is_free(start, along) { along } else { start };
                 let into = motion.velocity.dot(wall.normal);
                 motion.velocity -= wall.normal * into;
             }

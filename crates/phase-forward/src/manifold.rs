@@ -6,13 +6,18 @@ use phase_model::Vec2;
 /// The shape that the normal belongs to.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum Reference {
-    /// Neither: the normal leads from the one point of the first shape to the one point of the second.
+    /// Neither: the normal leads from the one point of the first shape to the one point of the second, and in the direction
+    /// [`APART`] where the two are the same.
     Points,
     /// A face of the first shape.
     First,
     /// A face of the second shape.
     Second,
 }
+
+/// The normal of two points at one place, so that there always is one, and the same for the same state. The axes of the arena are
+/// those of its walls: along a wall, a body at its end gets off the end or onto the wall's side, and from there off the wall.
+const APART: Vec2 = Vec2::X;
 
 /// A contact of two shapes, in local frames so that it stays valid while the position solver moves them.
 #[derive(Clone, Copy, Debug)]
@@ -53,7 +58,7 @@ impl Manifold {
             Reference::Points => {
                 let from = a.place(self.anchor);
                 let to = b.place(self.points[0]);
-                let normal = (to - from).normalize_or_zero();
+                let normal = direction(from, to);
                 (normal, (from + to) * 0.5, (to - from).dot(normal) - skins)
             }
             Reference::First => {
@@ -75,7 +80,7 @@ impl Manifold {
         match self.reference {
             Reference::Points => {
                 let to = body.place(self.points[0]);
-                let normal = (to - self.anchor).normalize_or_zero();
+                let normal = direction(self.anchor, to);
                 (normal, (self.anchor + to) * 0.5, (to - self.anchor).dot(normal) - skins)
             }
             Reference::First => {
@@ -104,7 +109,7 @@ impl Manifold {
             Reference::Points => {
                 let from = a.place(self.anchor);
                 let to = b.place(self.points[0]);
-                let normal = (to - from).try_normalize().unwrap_or(Vec2::X);
+                let normal = direction(from, to);
                 middles[0] = (from + normal * skin_a + to - normal * skin_b) * 0.5;
                 (normal, middles)
             }
@@ -128,4 +133,10 @@ impl Manifold {
             }
         }
     }
+}
+
+/// The normal from one point to another.
+#[inline]
+fn direction(from: Vec2, to: Vec2) -> Vec2 {
+    (to - from).try_normalize().unwrap_or(APART)
 }

@@ -5,7 +5,7 @@ use crate::{
     key::{BodyMask, KeySet, WALL_KEYS},
     wall::{MAX_WALLS, Wall, WallBoxes, walls},
 };
-use phase_model::{AGENT_COUNT, PhysicsConfig};
+use phase_model::{AGENT_COUNT, PhysicsConfig, Segment, Vec2};
 
 /// The constants of one scene's dynamics, prepared for stepping.
 ///
@@ -52,6 +52,12 @@ impl Model {
     /// Those of some pairs of shapes whose contacts are resisted.
     pub(crate) const fn resisting(&self, candidates: KeySet) -> KeySet {
         if self.collisions { candidates } else { candidates & WALL_KEYS }
+    }
+
+    /// Whether a straight path leads through no wall.
+    pub(crate) fn is_free(&self, from: Vec2, to: Vec2) -> bool {
+        let path = Segment { a: from, b: to };
+        self.walls[..self.wall_count].iter().all(|wall| !path.crosses(Segment { a: wall.a, b: wall.b }))
     }
 
     /// All bodies of the scene.

@@ -30,6 +30,12 @@ impl Wall {
         Self { a, b, normal, min: a.min(b) - skin, max: a.max(b) + skin }
     }
 
+    /// Whether a point lies beside it, neither before its one end nor past its other.
+    pub(crate) fn is_beside(&self, point: Vec2) -> bool {
+        let along = self.b - self.a;
+        along.dot(point - self.a) > 0.0 && along.dot(self.b - point) > 0.0
+    }
+
     /// Whether it is a single point.
     #[inline]
     pub(crate) fn is_point(&self) -> bool {

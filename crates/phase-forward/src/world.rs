@@ -9,7 +9,10 @@ use crate::{
     wall::WallSet,
     weld::held_body,
 };
-use phase_model::{AGENT_COUNT, Action, AgentId, Body, Entity, Grip, State, Vec2, arena};
+use phase_model::{
+    AGENT_COUNT, Action, AgentId, Body, Entity, Grip, State, Vec2, arena,
+    physics::{MAX_ANGLE, valid_angle},
+};
 
 /// Impulses of the last substep other than contacts', used for warm starting.
 #[derive(Clone, Copy, Debug)]
@@ -179,8 +182,6 @@ impl<'a> World<'a> {
 /// Largest accepted speed (u/s) and angular velocity (rad/s) of an input state; free motion is limited to far
 /// less.
 const MAX_SPEED: f32 = 1e4;
-/// Maximum accepted angle (rad); beyond it, adjacent floating-point numbers differ by a visible rotation.
-const MAX_ANGLE: f32 = 1e5;
 
 /// Maximum accepted twist of a grip (rad); the strongest agents stay far below it.
 const MAX_GRIP_ANGLE: f32 = 1.0;
@@ -232,7 +233,7 @@ fn sanitized(body: Body) -> Body {
             number(body.position.y, 2.0 * arena::MAX.y),
         ),
         velocity: Vec2::new(number(body.velocity.x, MAX_SPEED), number(body.velocity.y, MAX_SPEED)),
-        angle: number(body.angle, MAX_ANGLE),
+        angle: valid_angle(body.angle),
         angular_velocity: number(body.angular_velocity, MAX_SPEED),
     }
 }

@@ -146,3 +146,25 @@ fn report(going: Going, unit: &str, errors: &mut [f32]) {
         100.0 * near
     );
 }
+
+/// A state that comes from elsewhere than a scene, such as an observation, may have any angle. Both engines take it for the same.
+#[test]
+fn angles_that_no_scene_has_are_the_same_in_both_engines() {
+    let body = phase_model::AgentBody { radius: 0.8, max_force: 450.0 };
+    let physics =
+        PhysicsConfig { walls: Vec::new(), agents: [body; 2], object_radii: [1.0; 2], object_count: 1 };
+    for angle in [99_999.0, 1.5e5, -3e7, 1e30, f32::MIN, f32::INFINITY, f32::NEG_INFINITY, f32::NAN] {
+        let mut start = State::new([phase_model::Body::default(); 4]);
+        for (body, x) in start.bodies.iter_mut().zip([10.0, 16.0, 22.0, 8.0]) {
+            (body.position, body.angle) = (phase_model::Vec2::new(x, 12.0), angle);
+        }
+        let mut imagined = start;
+        Forward::new(&physics).step(&mut imagined, [Action::Up, Action::NoForce]);
+        let after = World::new(&physics, &start).step([Action::Up, Action::NoForce])[4];
+        for entity in physics.entities() {
+            let (a, b) = (after.body(entity), imagined.body(entity));
+            assert_eq!(a.angle, b.angle, "{entity:?} at {angle}");
+            assert!(a.position.distance(b.position) < FREE, "{entity:?} at {angle}");
+        }
+    }
+}

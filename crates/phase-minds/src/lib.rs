@@ -50,7 +50,7 @@ pub use agent::Agent;
 pub use parameters::{MindKind, MindParameters, ParametersError};
 pub use phase_agent::{BeliefView, Foresight, PhaseParameters};
 pub use phase_published::{PublishedParameters, RandomNumbers, SearchMemo};
-pub use ranges::RangeError;
+pub use ranges::{PARTICLES, SIMULATIONS};
 pub use turns::Recorder;
 
 use phase_event::Thought;

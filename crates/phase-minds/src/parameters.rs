@@ -1,7 +1,11 @@
 //! The parameters of each kind of mind, and how they are read.
 
-use crate::{RangeError, ranges};
+use crate::ranges;
 use phase_agent::{Foresight, PhaseParameters};
+use phase_model::{
+    json::FieldError,
+    setting::{RangeError, Setting},
+};
 use phase_published::{PublishedParameters, RandomNumbers};
 use serde::{Deserialize, Serialize, de::DeserializeOwned};
 use serde_json::{Map, Value};
@@ -71,12 +75,18 @@ impl TryFrom<Unchecked> for MindParameters {
     type Error = RangeError;
 
     fn try_from(read: Unchecked) -> Result<Self, RangeError> {
-        let parameters = match read {
-            Unchecked::Phase(parameters) => Self::Phase(parameters),
-            Unchecked::Published(parameters) => Self::Published(parameters),
-        };
+        let parameters = read.parameters();
         parameters.validate()?;
         Ok(parameters)
+    }
+}
+
+impl Unchecked {
+    const fn parameters(self) -> MindParameters {
+        match self {
+            Self::Phase(parameters) => MindParameters::Phase(parameters),
+            Self::Published(parameters) => MindParameters::Published(parameters),
+        }
     }
 }
 
@@ -237,6 +247,20 @@ impl MindParameters {
         self
     }
 
+    /// Parameters as a file has them, all of a kind. `field` is their path in the file, for the error.
+    ///
+    /// # Errors
+    /// [`FieldError`], if a parameter is missing, of the wrong type, unknown or out of its range.
+    pub fn read(value: &Value, field: &str) -> Result<Self, FieldError> {
+        let unreadable = |error: serde_json::Error| FieldError {
+            field: field.into(),
+            rule: format!("must be the parameters of minds: {error}"),
+        };
+        let parameters = Unchecked::deserialize(value).map_err(unreadable)?.parameters();
+        parameters.validate().map_err(|error| error.at(field))?;
+        Ok(parameters)
+    }
+
     /// Parameters from a JSON object that has some of them: the member `kind` names the kind (`phase` if
     /// absent), the other members replace the defaults of that kind, each by its name in files.
     ///
@@ -258,6 +282,20 @@ impl MindParameters {
         };
         parameters.validate()?;
         Ok(parameters)
+    }
+
+    /// Every number among the parameters of this kind, with its range.
+    #[must_use]
+    pub fn settings(&self) -> Vec<Setting> {
+        let names =
+            |ranged: &[ranges::Ranged]| ranged.iter().map(|(setting, _)| *setting).collect::<Vec<_>>();
+        let mut all = match self {
+            Self::Phase(parameters) => names(&ranges::of_phase(parameters)),
+            Self::Published(parameters) => names(&ranges::of_published(parameters)),
+        };
+        // The last is the work of all together.
+        all.pop();
+        all
     }
 
     /// Checks that every parameter is in its range.

@@ -27,13 +27,10 @@ fn an_error_names_the_parameter_and_the_rule() {
     assert!(
         refused(json!({"simulations": "many"})).starts_with("field `simulations` is wrong: invalid type")
     );
-    assert_eq!(refused(json!({"particles": 0})), "field `particles` must be at least 1, not 0");
-    assert_eq!(
-        refused(json!({"decisiveness": -1})),
-        "field `decisiveness` must be finite and at least 0, not -1"
-    );
-    assert_eq!(refused(json!({"effort": 2})), "field `effort` must be from 0 to 1, not 2");
-    assert_eq!(refused(json!({"rest_prior": 0})), "field `rest_prior` must be finite and above 0, not 0");
+    assert_eq!(refused(json!({"particles": 0})), "field `particles` must be 1 to 100000, not 0");
+    assert_eq!(refused(json!({"decisiveness": -1})), "field `decisiveness` must be 0 to 100, not -1");
+    assert_eq!(refused(json!({"effort": 2})), "field `effort` must be 0 to 1, not 2");
+    assert_eq!(refused(json!({"rest_prior": 0})), "field `rest_prior` must be above 0, to 1000, not 0");
 }
 
 #[test]
@@ -78,12 +75,12 @@ fn a_file_with_a_parameter_out_of_its_range_is_refused() {
     let mut whole = json!(MindParameters::default());
     whole["particles"] = json!(0);
     let refused = serde_json::from_value::<MindParameters>(whole).unwrap_err().to_string();
-    assert_eq!(refused, "field `particles` must be at least 1, not 0");
+    assert_eq!(refused, "field `particles` must be 1 to 100000, not 0");
 }
 
-/// Every number has a range, and the defaults lie in it.
+/// Every number has a range, with both ends, and the defaults lie in it.
 #[test]
-fn no_number_may_be_negative() {
+fn no_number_may_be_negative_or_huge() {
     for kind in MindKind::ALL {
         MindParameters::of(kind).validate().unwrap();
         let whole = json!(MindParameters::of(kind));
@@ -91,8 +88,51 @@ fn no_number_may_be_negative() {
             if !value.is_number() {
                 continue;
             }
-            let refused = refused(json!({"kind": kind.name(), name.as_str(): -1}));
-            assert!(refused.contains(&format!("field `{name}`")), "{refused}");
+            for beyond in [json!(-1), json!(2_000_000_000_u64)] {
+                let refused = refused(json!({"kind": kind.name(), name.as_str(): beyond}));
+                assert!(refused.contains(&format!("field `{name}`")), "{refused}");
+                let mut file = whole.clone();
+                file[name] = beyond;
+                if let Err(wrong) = serde_json::from_value::<MindParameters>(file.clone()) {
+                    assert!(!wrong.to_string().is_empty());
+                } else {
+                    panic!("a file may have {name} {}", file[name]);
+                }
+                let error = MindParameters::read(&file, "settings.minds").unwrap_err().to_string();
+                assert!(error.contains("field `settings.minds"), "{error}");
+                assert!(error.contains(name.as_str()) || error.contains("invalid value"), "{error}");
+            }
+        }
+    }
+}
+
+/// Each of these may be large, not all at once: a decision would never end.
+#[test]
+fn the_work_of_a_decision_has_a_bound() {
+    let most = json!({"simulations": 1_000_000, "rollout_steps": 100});
+    MindParameters::from_overrides(most).unwrap();
+    let more = refused(json!({"simulations": 1_000_000, "rollout_steps": 101}));
+    assert!(more.contains("must be 0 to 100000000, not 101000000"), "{more}");
+    let more = refused(json!({"kind": "published", "simulations": 1_000_000, "searches": 100}));
+    assert!(more.contains("must be 0 to 100000000, not 1000000000"), "{more}");
+}
+
+/// What documents say of the range of a parameter is what holds.
+#[test]
+fn documents_state_the_ranges() {
+    let documents = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/explanation");
+    let files = [(MindKind::Phase, "minds.md"), (MindKind::Published, "published-minds.md")];
+    for (kind, file) in files {
+        let Ok(text) = std::fs::read_to_string(documents.join(file)) else {
+            println!("skipped: the crate is not in its repository");
+            continue;
+        };
+        for setting in MindParameters::of(kind).settings() {
+            let row = text.lines().find(|line| line.starts_with(&format!("| `{}` |", setting.name)));
+            let row = row.unwrap_or_else(|| panic!("{file} lacks {}", setting.name));
+            let said = row.split('|').nth(4).unwrap().trim();
+            let least = setting.range().replace(" to ", "–").replace("above 0,–", "> 0, ≤ ");
+            assert_eq!(said, least, "{file}: {}", setting.name);
         }
     }
 }

@@ -60,6 +60,7 @@ pub mod random;
 pub mod reward;
 pub mod scene;
 pub mod scene_json;
+pub mod setting;
 pub mod state;
 pub mod subgoal;
 pub mod validate;

@@ -2,7 +2,7 @@
 
 use crate::{
     AGENT_COUNT, AgentId, Attitude, Entity, EventKind, Goal, MAX_OBJECTS, ObjectId, Scene, arena,
-    geometry::Outline, scene::AgentSpec,
+    geometry::Outline, physics::MAX_ANGLE, scene::AgentSpec,
 };
 use thiserror::Error;
 
@@ -17,6 +17,14 @@ pub enum SceneError {
     NotFinite {
         /// The field, such as `agents[0].start`.
         field: String,
+    },
+    /// A start has an angle that engines cannot tell from its neighbours.
+    #[error("{field}.angle must be {} to {MAX_ANGLE} rad, not {angle}", -MAX_ANGLE)]
+    Angle {
+        /// The start, such as `agents[0].start`.
+        field: String,
+        /// Its angle (rad).
+        angle: f32,
     },
     /// A body's origin lies outside the arena.
     #[error("{field} must lie inside the arena (x 6 to 26, y 2 to 22), not at ({x}, {y})")]
@@ -76,7 +84,7 @@ pub enum SceneError {
 }
 
 impl Scene {
-    /// Checks everything a scene must satisfy to be simulated: finite starts inside the arena, goals about
+    /// Checks everything a scene must satisfy to be simulated: finite starts inside the arena, angles up to [`MAX_ANGLE`], goals about
     /// entities that exist, at most one social agent, with a goal derived from the other's. Overlapping
     /// starts are valid: the physics pushes the bodies apart, and some measured recordings begin like this.
     ///
@@ -91,6 +99,9 @@ impl Scene {
         for entity in self.physics().entities() {
             let body = state.body(entity);
             let field = format!("{}.start", field_name(entity));
+            if body.angle.abs() > MAX_ANGLE {
+                return Err(SceneError::Angle { field, angle: body.angle });
+            }
             if !arena::contains(body.position) {
                 return Err(SceneError::OutsideArena { field, x: body.position.x, y: body.position.y });
             }

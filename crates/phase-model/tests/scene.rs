@@ -39,7 +39,11 @@ type Fault = (fn(&mut Scene), &'static str);
 fn faults_are_named() {
     assert_eq!(scene().validate(), Ok(()));
     assert_eq!(scene().validate_without_overlap(), Ok(()));
-    let faults: [Fault; 8] = [
+    let faults: [Fault; 9] = [
+        (
+            |s| s.agents[1].start.angle = -2e5,
+            "agents[1].start.angle must be -100000 to 100000 rad, not -200000",
+        ),
         (|s| s.agents[0].start.position.x = f32::NAN, "agents[0].start must hold finite numbers"),
         (|s| s.objects[0].start.angle = f32::INFINITY, "objects[0].start must hold finite numbers"),
         (|s| s.agents[1].start.position.y = 22.5, "agents[1].start must lie inside the arena"),

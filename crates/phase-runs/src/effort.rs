@@ -47,11 +47,11 @@ pub struct Effort {
     pub minds: MindChoice,
     /// Dynamics in the agents' search.
     pub foresight: Option<Foresight>,
-    /// Belief particles of each agent, at least 1.
+    /// Belief particles of each agent, in the range [`phase_minds::PARTICLES`].
     pub particles: Option<u32>,
-    /// POMCP simulations a decision, at least 1.
+    /// POMCP simulations a decision, in the range [`phase_minds::SIMULATIONS`].
     pub simulations: Option<u32>,
-    /// Maximum length of an event (steps of 0.25 s), at least 1.
+    /// Maximum length of an event (steps of 0.25 s), in the range [`phase_model::setting::EVENT_STEPS`].
     pub max_steps: Option<u32>,
 }
 
@@ -59,7 +59,8 @@ impl Effort {
     /// The settings of the simulation.
     ///
     /// # Errors
-    /// [`RunError::Usage`], if minds of this kind do not have a parameter that was given.
+    /// [`RunError::Usage`], if minds of this kind do not have a parameter that was given, or it is out of its
+    /// range.
     pub fn settings(&self) -> Result<SimulationSettings, RunError> {
         self.settings_with(MindParameters::of(self.minds.kind.unwrap_or_default()))
     }
@@ -67,8 +68,8 @@ impl Effort {
     /// The settings of the simulation, where minds have these parameters in place of the defaults.
     ///
     /// # Errors
-    /// [`RunError::Usage`], if other minds were requested, or minds of this kind do not have a parameter that
-    /// was given.
+    /// [`RunError::Usage`], if other minds were requested, minds of this kind do not have a parameter that was
+    /// given, or it is out of its range.
     pub fn settings_with(&self, mut minds: MindParameters) -> Result<SimulationSettings, RunError> {
         if let Some(kind) = self.minds.kind.filter(|kind| *kind != minds.kind()) {
             let asked = kind.name();
@@ -91,14 +92,16 @@ impl Effort {
         }
         let minds = minds.as_recorded(self.minds.original_random, self.minds.strongest_coasts);
         let defaults = SimulationSettings::default();
-        Ok(SimulationSettings {
+        let settings = SimulationSettings {
             engine: self.engine.unwrap_or_default(),
             max_steps: self.max_steps.map_or(defaults.max_steps, |steps| steps as usize),
             one_way_turns: self.minds.one_way_turns,
             strongest_coasts: self.minds.strongest_coasts,
             minds,
             ..defaults
-        })
+        };
+        settings.validate().map_err(|error| RunError::Usage(error.to_string()))?;
+        Ok(settings)
     }
 
     /// The options of the command line that ask for it, each with a space before it.

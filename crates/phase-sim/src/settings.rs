@@ -1,8 +1,16 @@
 //! Settings of a simulation: engine, length, parameters of the minds.
 
-use phase_minds::{MindParameters, RangeError, Recorder};
-use phase_model::AgentId;
+use phase_minds::{MindParameters, Recorder};
+use phase_model::{
+    AgentId,
+    json::FieldError,
+    setting::{EVENT_STEPS, RangeError, Setting},
+};
 use serde::{Deserialize, Serialize};
+use serde_json::Value;
+
+/// Least length (steps). It may be 0, and above the greatest length, which then counts.
+const MIN_STEPS: Setting = Setting::whole("min_steps", "steps", 0, 10_000);
 
 /// The physics that an event itself is simulated in. The agents' searches use `phase-forward` in either case.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default, Serialize, Deserialize)]
@@ -38,20 +46,22 @@ impl Engine {
 /// The settings of a simulation: engine, length, bodies and minds. The defaults are the paper's.
 ///
 /// In a file they are one object with a member for every field, of which `idle` and `stop_between_steps` are
-/// left out at their defaults. [`validate`](Self::validate) checks ranges; [`simulate`](crate::simulate) does
-/// so itself.
+/// left out at their defaults. Reading them checks ranges, as [`validate`](Self::validate) does;
+/// [`simulate`](crate::simulate) does so itself.
 #[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
+#[serde(try_from = "Unchecked")]
 pub struct SimulationSettings {
     /// The engine that simulates the event.
     pub engine: Engine,
-    /// Maximum length (steps of 0.25 s; the paper's 25 s).
+    /// Maximum length (steps of 0.25 s; the paper's 25 s), in the range [`EVENT_STEPS`].
     pub max_steps: usize,
-    /// Minimum length unless `max_steps` is smaller (steps; the paper's 10 s).
+    /// Minimum length unless `max_steps` is smaller (steps; the paper's 10 s), 0 to 10000.
     pub min_steps: usize,
     /// An event ends once, for this many consecutive steps, neither agent had anything to do and nothing
-    /// moved.
+    /// moved; never, if they are more than `max_steps`.
     pub rest_steps: usize,
-    /// An event also ends once nothing has moved for this many consecutive steps, whatever the subgoals.
+    /// An event also ends once nothing has moved for this many consecutive steps, whatever the subgoals;
+    /// never, if they are more than `max_steps`.
     pub still_steps: usize,
     /// An agent that stops and stays whatever its goal, so that an event can be compared with its
     /// counterfactual without that agent; usually none.
@@ -72,6 +82,53 @@ pub struct SimulationSettings {
     pub minds: MindParameters,
 }
 
+/// Settings as a file has them, whose ranges have not been checked but for those of minds.
+#[derive(Deserialize)]
+struct Unchecked {
+    engine: Engine,
+    max_steps: usize,
+    min_steps: usize,
+    rest_steps: usize,
+    still_steps: usize,
+    #[serde(default)]
+    idle: Option<AgentId>,
+    #[serde(default)]
+    stop_between_steps: bool,
+    one_way_turns: bool,
+    #[serde(default)]
+    strongest_coasts: bool,
+    minds: MindParameters,
+}
+
+impl Unchecked {
+    const fn settings(self) -> SimulationSettings {
+        let Self { engine, max_steps, min_steps, rest_steps, still_steps, idle, .. } = self;
+        let Self { stop_between_steps, one_way_turns, strongest_coasts, minds, .. } = self;
+        SimulationSettings {
+            engine,
+            max_steps,
+            min_steps,
+            rest_steps,
+            still_steps,
+            idle,
+            stop_between_steps,
+            one_way_turns,
+            strongest_coasts,
+            minds,
+        }
+    }
+}
+
+impl TryFrom<Unchecked> for SimulationSettings {
+    type Error = RangeError;
+
+    fn try_from(read: Unchecked) -> Result<Self, RangeError> {
+        let settings = read.settings();
+        settings.validate()?;
+        Ok(settings)
+    }
+}
+
 impl SimulationSettings {
     /// The defects of the agents' bodies.
     #[must_use]
@@ -79,12 +136,42 @@ impl SimulationSettings {
         Recorder { one_way_turns: self.one_way_turns, strongest_coasts: self.strongest_coasts }
     }
 
-    /// Checks that every parameter of the minds is in its range.
+    /// Settings as a file has them. `field` is their path in the file, for the error.
+    ///
+    /// ```
+    /// use phase_sim::SimulationSettings;
+    ///
+    /// let mut settings = serde_json::to_value(SimulationSettings::default())?;
+    /// settings["minds"]["particles"] = 1_000_000_000.into();
+    /// let refused = SimulationSettings::read(&settings, "settings").unwrap_err();
+    /// let rule = "field `settings.minds.particles` must be 1 to 100000, not 1000000000";
+    /// assert_eq!(refused.to_string(), rule);
+    /// # Ok::<(), serde_json::Error>(())
+    /// ```
     ///
     /// # Errors
-    /// [`RangeError`], which names the parameter and its range.
+    /// [`FieldError`], if one is missing, of the wrong type or out of its range.
+    pub fn read(value: &Value, field: &str) -> Result<Self, FieldError> {
+        if let Some(minds) = value.get("minds") {
+            MindParameters::read(minds, &format!("{field}.minds"))?;
+        }
+        let unreadable = |error: serde_json::Error| FieldError {
+            field: field.into(),
+            rule: format!("must be the settings of a simulation: {error}"),
+        };
+        let settings = Unchecked::deserialize(value).map_err(unreadable)?.settings();
+        settings.validate().map_err(|error| error.at(field))?;
+        Ok(settings)
+    }
+
+    /// Checks that everything is in its range.
+    ///
+    /// # Errors
+    /// [`RangeError`], which names the setting and its range.
     pub fn validate(&self) -> Result<(), RangeError> {
-        self.minds.validate()
+        EVENT_STEPS.check_count(self.max_steps)?;
+        MIN_STEPS.check_count(self.min_steps)?;
+        self.minds.validate().map_err(|error| error.within("minds"))
     }
 }
 

@@ -3,11 +3,12 @@
 use crate::{SimulationSettings, environment::Environment};
 use core::ops::ControlFlow;
 use phase_event::{Event, Step, Thought};
-use phase_minds::{Agent, RangeError, observe};
+use phase_minds::{Agent, observe};
 use phase_model::{
     AGENT_COUNT, Action, AgentId, PhysicsConfig, Scene, SceneError, State, Subgoal,
     arena::SUBSTEPS,
     random::{self, Pcg64Mcg, Purpose},
+    setting::RangeError,
 };
 use phase_predicates::threshold::SEEN_MOTION;
 use thiserror::Error;
@@ -24,9 +25,9 @@ pub enum SimulationError {
     /// A search failed.
     #[error(transparent)]
     Search(#[from] phase_pomcp::PomcpError),
-    /// A parameter of the minds is out of its range.
-    #[error("minds: {0}")]
-    Parameters(#[from] RangeError),
+    /// A setting is out of its range.
+    #[error(transparent)]
+    Settings(#[from] RangeError),
 }
 
 /// Simulates a scene from its start to its end (Algorithm 1 of the paper).
@@ -39,7 +40,7 @@ pub enum SimulationError {
 /// [`simulate_with`] can end an event early, and [`Simulation`] goes step by step, with actions from outside.
 ///
 /// # Errors
-/// [`SimulationError`], if the scene or a parameter of the minds is invalid.
+/// [`SimulationError`], if the scene or a setting is invalid.
 ///
 /// # Examples
 /// An agent, 5.5 u from its landmark, gets there, and another that wants to stay stays:
@@ -77,7 +78,7 @@ pub fn simulate(scene: &Scene, seed: u64, settings: &SimulationSettings) -> Resu
 /// change what happens.
 ///
 /// # Errors
-/// [`SimulationError`], if the scene or a parameter of the minds is invalid.
+/// [`SimulationError`], if the scene or a setting is invalid.
 pub fn simulate_with(
     scene: &Scene,
     seed: u64,
@@ -122,7 +123,7 @@ impl Simulation {
     /// The scene at its start, in which both agents have minds.
     ///
     /// # Errors
-    /// [`SimulationError`], if the scene or a parameter of the minds is invalid.
+    /// [`SimulationError`], if the scene or a setting is invalid.
     pub fn new(scene: &Scene, seed: u64, settings: &SimulationSettings) -> Result<Self, SimulationError> {
         Self::with_minds(scene, seed, settings, [true; AGENT_COUNT])
     }
@@ -131,7 +132,7 @@ impl Simulation {
     /// and stops in a step in which no action is given to it.
     ///
     /// # Errors
-    /// [`SimulationError`], if the scene or a parameter of the minds is invalid.
+    /// [`SimulationError`], if the scene or a setting is invalid.
     pub fn with_minds(
         scene: &Scene,
         seed: u64,
@@ -150,7 +151,7 @@ impl Simulation {
             event: Event { scene: scene.clone(), seed, initial, steps: Vec::new() },
             resting: 0,
             still: 0,
-            over: settings.max_steps == 0,
+            over: false,
             perceived: true,
             physics,
         })

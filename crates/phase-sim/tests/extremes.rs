@@ -3,6 +3,7 @@
 use phase_event::{Event, Recording, from_json, to_json};
 use phase_model::{
     AGENT_COUNT, Action, Body, EventKind, Scene, Vec2,
+    physics::MAX_ANGLE,
     random::{Purpose, stream},
 };
 use phase_sim::{Engine, Simulation, SimulationSettings, replay};
@@ -23,7 +24,7 @@ fn speed() -> impl Strategy<Value = f32> {
 }
 
 fn body() -> impl Strategy<Value = Body> {
-    (place(), speed(), speed(), prop_oneof![-7.0..7.0f32, prop::num::f32::NORMAL], speed()).prop_map(
+    (place(), speed(), speed(), prop_oneof![-7.0..7.0f32, -MAX_ANGLE..=MAX_ANGLE], speed()).prop_map(
         |(position, x, y, angle, angular_velocity)| Body {
             position,
             velocity: Vec2::new(x, y),

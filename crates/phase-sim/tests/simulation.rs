@@ -119,14 +119,14 @@ fn nonsense_is_refused() {
     assert!(matches!(simulate(&bad, 1, &quick()), Err(SimulationError::Scene(_))));
     for minds in [quick().minds.with_particles(0), quick().minds.with_simulations(0)] {
         let refused = simulate(&scene(EventKind::Independent), 1, &SimulationSettings { minds, ..quick() });
-        assert!(matches!(refused, Err(SimulationError::Parameters(_))));
+        assert!(matches!(refused, Err(SimulationError::Settings(_))));
     }
     let refused = simulate(
         &scene(EventKind::Independent),
         1,
         &SimulationSettings { minds: quick().minds.with_particles(0), ..quick() },
     );
-    assert_eq!(refused.unwrap_err().to_string(), "minds: field `particles` must be at least 1, not 0");
+    assert_eq!(refused.unwrap_err().to_string(), "field `minds.particles` must be 1 to 100000, not 0");
 }
 
 #[test]

@@ -28,15 +28,35 @@ pub(crate) fn pose(position: Vec2, angle: f32) -> Pose {
     Pose::from_parts(position, rotation(angle))
 }
 
-/// The closest valid start: finite, inside the arena, below the maximum speeds.
+/// Distance from a wall at which a body is put that was centred on it, or outside of the arena (u). The engine has no direction in
+/// which it could push a disc off a surface on which its centre lies.
+const MARGIN: f32 = 1e-3;
+
+/// A point of the arena that is not on its boundary: the point itself, or the closest one.
 #[must_use]
-pub(crate) fn sanitized(body: &Body) -> Body {
+pub(crate) fn inside(point: Vec2) -> Vec2 {
+    if point.cmpgt(arena::MIN).all() && point.cmplt(arena::MAX).all() {
+        point
+    } else {
+        point.clamp(arena::MIN + MARGIN, arena::MAX - MARGIN)
+    }
+}
+
+/// A point that lies on no wall: the point itself, or one beside the walls that it lies on.
+fn beside(point: Vec2, walls: &[Segment]) -> Vec2 {
+    let under = walls.iter().filter(|wall| wall.nearest(point) == point);
+    under.fold(point, |place, wall| place + (wall.b - wall.a).perp().normalize_or(Vec2::X) * MARGIN)
+}
+
+/// The closest valid start: finite, inside the arena, on no wall, below the maximum speeds.
+#[must_use]
+pub(crate) fn sanitized(body: &Body, walls: &[Segment]) -> Body {
     let or = |vector: Vec2, default| if vector.is_finite() { vector } else { default };
     let or_zero = |number: f32| if number.is_finite() { number } else { 0.0 };
     Body {
-        position: or(body.position, arena::CENTRE).clamp(arena::MIN, arena::MAX),
+        position: inside(beside(or(body.position, arena::CENTRE), walls)),
         velocity: or(body.velocity.clamp_length_max(settings::MAX_SPEED), Vec2::ZERO),
-        angle: or_zero(body.angle),
+        angle: physics::valid_angle(body.angle),
         angular_velocity: or_zero(body.angular_velocity).clamp(-MAX_SPIN, MAX_SPIN),
     }
 }

@@ -1,7 +1,7 @@
 //! One moving body: its parts in the engine and the state that the engine does not store.
 
 use crate::{bodies, friction, friction::FrictionDirection};
-use phase_model::{Action, AgentBody, Body, Entity, PhysicsConfig, Vec2, arena};
+use phase_model::{Action, AgentBody, Body, Entity, PhysicsConfig, Vec2};
 use rapier2d::prelude::*;
 
 /// Pose and velocity of a body in the engine.
@@ -31,7 +31,7 @@ impl DynamicBody {
         entity: Entity,
         start: &Body,
     ) -> Self {
-        let start = bodies::sanitized(start);
+        let start = bodies::sanitized(start, &physics.walls);
         let (body, collider) = bodies::insert_body(engine, physics, entity, &start);
         Self { entity, body, collider, friction: friction::insert(engine, ground, body), angle: start.angle }
     }
@@ -117,8 +117,8 @@ impl DynamicBody {
     /// arena.
     pub(crate) fn clamp_to_arena(&self, engine: &mut PhysicsWorld) {
         let body = &mut engine.bodies[self.body];
-        if !arena::contains(body.translation()) {
-            let inside = body.translation().clamp(arena::MIN, arena::MAX);
+        let inside = bodies::inside(body.translation());
+        if inside != body.translation() {
             body.set_translation(inside, true);
         }
     }

@@ -43,7 +43,7 @@ pub struct Benchmark {
     /// Also show these results.json of `eval`, of the same events
     #[arg(long, value_name = "FILES", num_args = 1..)]
     pub results: Vec<PathBuf>,
-    /// Only the first N events of each
+    /// Only the first N events of each, 1 to 1000000000
     #[arg(long, value_name = "N", value_parser = value_parser!(u64).range(1..=1_000_000_000))]
     pub limit: Option<u64>,
     /// Random seed of methods and intervals

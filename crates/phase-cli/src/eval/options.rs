@@ -38,8 +38,8 @@ pub struct EvalGoals {
     /// The minds that SIMPLE imagines.
     #[command(flatten)]
     pub minds: ImaginedMinds,
-    /// Also ask the method after the given numbers of seconds of each event, such as 5,10,15,20; each takes
-    /// as long again
+    /// Also ask the method after the given numbers of seconds of each event, up to 3600, such as
+    /// 5,10,15,20; each takes as long again
     #[arg(
         long,
         value_name = "SECONDS",
@@ -89,7 +89,7 @@ pub struct Common {
     /// Only this part of a dataset: train, validation or test
     #[arg(long, value_name = "SPLIT", hide_possible_values = true, value_parser = splits())]
     pub split: Option<Split>,
-    /// Only the first N events
+    /// Only the first N events, 1 to 1000000000
     #[arg(long, value_name = "N", value_parser = value_parser!(u64).range(1..=1_000_000_000))]
     pub limit: Option<u64>,
     /// Random seed of the method and the intervals

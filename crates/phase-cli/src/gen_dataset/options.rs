@@ -3,6 +3,7 @@
 use crate::{effort::SimulationOptions, output::Output, parallel::Jobs, shard_option::shard};
 use chrono::NaiveDate;
 use clap::{Args, value_parser};
+use phase_model::setting::EVENTS;
 use phase_runs::gen_dataset::Generation;
 use std::path::PathBuf;
 
@@ -15,9 +16,9 @@ pub struct GenDataset {
     /// format phase-preset/3 whose name ends in .json
     #[arg(long, default_value = "demo")]
     pub preset: String,
-    /// Number of events [default: the preset's]
-    #[arg(long, value_name = "N", value_parser = value_parser!(u64).range(1..=1_000_000))]
-    pub events: Option<u64>,
+    /// Number of events, 1 to 1000000 [default: the preset's]
+    #[arg(long, value_name = "N", value_parser = value_parser!(u32).range(EVENTS.bounds()))]
+    pub events: Option<u32>,
     /// Random seed of the dataset [default: the preset's]
     #[arg(long, value_name = "S")]
     pub seed: Option<u64>,

@@ -272,11 +272,8 @@ fn settings(
     id: &str,
     simulation: &SimulationRecord,
 ) -> Result<SimulationSettings, RunError> {
-    let settings = serde_json::from_value(simulation.settings.clone());
-    settings.map_err(|source| RunError::SimulationSettings {
-        file: arguments.file.clone(),
-        id: id.to_owned(),
-        source,
+    SimulationSettings::read(&simulation.settings, "settings").map_err(|source| {
+        RunError::SimulationSettings { file: arguments.file.clone(), id: id.to_owned(), source }
     })
 }
 

@@ -37,7 +37,7 @@ pub struct Render {
     /// Colours: as in the paper, or distinguishable with a colour vision deficiency
     #[arg(long, value_name = "PALETTE", default_value = PaletteName::Paper.name(), value_parser = palettes())]
     pub palette: PaletteName,
-    /// Instead of a video, one picture of N frames evenly spaced over the event
+    /// Instead of a video, one picture of N frames, 1 to 100, evenly spaced over the event
     #[arg(long, value_name = "N", value_parser = value_parser!(u16).range(1..=100))]
     pub contact_sheet: Option<u16>,
     /// Form in which the result is printed.

@@ -35,13 +35,13 @@ pub struct Serve {
         value_parser = splits()
     )]
     pub split: Option<Split>,
-    /// Scenes of a game after the practice; those that were played least come first
+    /// Scenes of a game after the practice, 1 to 1000; those that were played least come first
     #[arg(long, value_name = "N", default_value_t = 5, value_parser = value_parser!(u16).range(1..=1000))]
     pub rounds: u16,
-    /// Games at the same time
+    /// Games at the same time, 1 to 10000
     #[arg(long, value_name = "N", default_value_t = 200, value_parser = value_parser!(u16).range(1..=10_000))]
     pub rooms: u16,
-    /// Of them games in which a mind plays [default: 12 for each core]
+    /// Of them games in which a mind plays, 0 to 10000 [default: 12 for each core]
     #[arg(long, value_name = "N", value_parser = value_parser!(u16).range(0..=10_000))]
     pub mind_rooms: Option<u16>,
     /// Only who has the admin token opens games

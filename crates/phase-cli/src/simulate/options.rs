@@ -17,7 +17,8 @@ pub struct Simulate {
     /// Random seed of the simulations of events without their own `seed`
     #[arg(long, value_name = "S", default_value_t = 1)]
     pub seed: u64,
-    /// Simulate every scene with the seeds S to S + N - 1; with more than one, ids end in -seedK
+    /// Simulate every scene with the seeds S to S + N - 1, N from 1 to 10000; with more than one, ids end in
+    /// -seedK
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = value_parser!(u16).range(1..=10_000))]
     pub seeds: u16,
     /// Give all events of the file the same random numbers: the seed of each is drawn from S alone, and not

@@ -2,6 +2,7 @@
 
 use crate::output::Output;
 use clap::{Args, Subcommand, builder::PossibleValuesParser, value_parser};
+use phase_model::setting::EVENTS;
 use std::path::PathBuf;
 
 /// The experiments whose numbers a new study takes over.
@@ -36,13 +37,13 @@ pub struct NewStudy {
     /// File in the format phase-events/1 with the events that .mp4 files show, for their labels
     #[arg(long, value_name = "FILE")]
     pub events: Vec<PathBuf>,
-    /// Take so many videos of each folder, at random
-    #[arg(long, value_name = "N", value_parser = value_parser!(u32).range(1..))]
+    /// Take so many videos of each folder, 1 to 1000000, at random
+    #[arg(long, value_name = "N", value_parser = value_parser!(u32).range(EVENTS.bounds()))]
     pub sample: Option<u32>,
     /// Make a video a catch trial: its id, and the relation or type of interaction that everybody sees in it
     #[arg(long = "catch", value_name = "ID=ANSWER")]
     pub catch_trials: Vec<String>,
-    /// Seed of assignments and of --sample
+    /// Seed of assignments and of --sample, 0 to 9223372036854775807
     #[arg(
         long,
         value_name = "S",

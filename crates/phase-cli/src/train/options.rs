@@ -1,7 +1,8 @@
 //! The options of `train`.
 
 use crate::output::Output;
-use clap::{Args, Subcommand};
+use clap::{Args, Subcommand, value_parser};
+use phase_model::setting::EVENTS;
 #[cfg(feature = "networks")]
 use phase_runs::train::{Trainee, Training};
 use std::path::PathBuf;
@@ -35,9 +36,9 @@ pub struct Options {
     /// Also train on these: the training events of other datasets, and all events of folders of `simulate`
     #[arg(long, value_name = "DIR", num_args = 1..)]
     pub more: Vec<PathBuf>,
-    /// Train on the first N training events of --data only
-    #[arg(long, value_name = "N", value_parser = at_least_one)]
-    pub events: Option<usize>,
+    /// Train on the first N training events of --data only, 1 to 1000000
+    #[arg(long, value_name = "N", value_parser = value_parser!(u32).range(EVENTS.bounds()))]
+    pub events: Option<u32>,
     /// Folder of the dataset for validation and testing; by default the one for training
     #[arg(long, value_name = "DIR")]
     pub validation: Option<PathBuf>,
@@ -61,9 +62,9 @@ pub struct NetworkOptions {
     /// Datasets and output.
     #[command(flatten)]
     pub options: Options,
-    /// Maximum number of rounds
-    #[arg(long, value_name = "N", value_parser = at_least_one)]
-    pub rounds: Option<usize>,
+    /// Maximum number of rounds, 1 to 1000000
+    #[arg(long, value_name = "N", value_parser = value_parser!(u32).range(1..=1_000_000))]
+    pub rounds: Option<u32>,
 }
 
 #[cfg(feature = "networks")]
@@ -74,7 +75,7 @@ impl Train {
     }
 
     /// The network, datasets and output, and the maximum number of rounds.
-    const fn parts(&self) -> (Trainee, &Options, Option<usize>) {
+    const fn parts(&self) -> (Trainee, &Options, Option<u32>) {
         match self {
             Self::Strength(options) => (Trainee::Strength, options, None),
             Self::IntentNetwork(it) => (Trainee::IntentNetwork, &it.options, it.rounds),
@@ -95,17 +96,12 @@ impl From<&Train> for Training {
             trainee,
             data: options.data.clone(),
             more: options.more.clone(),
-            events: options.events,
+            events: options.events.map(|events| events as usize),
             validation: options.validation.clone(),
             out: options.out.clone(),
             seed: options.seed,
             test: options.test,
-            rounds,
+            rounds: rounds.map(|rounds| rounds as usize),
         }
     }
-}
-
-/// A number of events or rounds.
-fn at_least_one(text: &str) -> Result<usize, String> {
-    text.parse().ok().filter(|number| *number > 0).ok_or_else(|| "must be a whole number above 0".into())
 }

@@ -109,7 +109,7 @@ fn incomplete_and_impossible_sets_are_refused() {
         ),
         (r#"["hinder", "indifferent"]"#, r#"["hinder"]"#, "two or more different stances"),
         (r#""ends": "drawn""#, r#""ends": "settled""#, "equally long"),
-        (r#""sets": 1}"#, r#""sets": 0}"#, "must not be 0"),
+        (r#""sets": 1}"#, r#""sets": 0}"#, "`sets[0].sets` must be 1 to 1000000, not 0"),
     ] {
         fs::write(path.join("sets.json"), PRESET.replacen(from, to, 1)).expect("written");
         let message = refuse(path, &generate("out", &[]));

@@ -206,7 +206,7 @@ fn what_is_no_preset_is_refused() {
         (&DEMO.replace("\"demo\"", "\"../demo\""), "name"),
         (&DEMO.replace("\"demo\"", "\".demo\""), "name"),
         (&DEMO.replace("\"demo\"", "\"nul.\""), "name"),
-        (&PHASE_500.replace("\"blocks\": 64", "\"blocks\": 0"), "`blocks`"),
+        (&PHASE_500.replace("\"blocks\": 64", "\"blocks\": 0"), "blocks` must be 1"),
         (&PHASE_500.replace("[\"carry\"]", "[]"), "`columns`"),
         (&PHASE_500.replace("\"blocks\": {", "\"groups\": [{}], \"blocks\": {"), "variant"),
         (&PHASE_500.replace("\"unseen\", \"blocks\": 5", "\"hidden\", \"blocks\": 5"), "hidden"),
@@ -214,19 +214,25 @@ fn what_is_no_preset_is_refused() {
         (&PHASE_500.replace("\"max_steps\": 100", "\"max_steps\": 10"), "min_steps"),
         (&PHASE_500.replace("\"validation\"", "\"holdout\""), "holdout"),
         // No memory for them is asked for before they are refused.
-        (&DEMO.replace("\"events\": 1", "\"events\": 10000000000"), "`events` must be at most 1000000"),
+        (
+            &DEMO.replace("\"events\": 1", "\"events\": 10000000000"),
+            "`groups[0].events` must be 1 to 1000000",
+        ),
         (
             &DEMO.replace("\"events\": 1", "\"events\": 9223372036854775808"),
-            "`events` must be at most 1000000",
+            "`groups[0].events` must be 1 to 1000000",
         ),
         (&DEMO.replace("\"events\": 1", "\"events\": 600000"), "in all"),
-        (&PHASE_500.replace("\"blocks\": 64", "\"blocks\": 9223372036854775807"), "`blocks` must be at most"),
+        (
+            &PHASE_500.replace("\"blocks\": 64", "\"blocks\": 9223372036854775807"),
+            "`blocks.groups[0].blocks` must be 1 to",
+        ),
         (&PHASE_500.replace("\"blocks\": 64", "\"blocks\": 999999"), "in all"),
         (
             &PHASE_500.replace("\"max_steps\": 100", "\"max_steps\": 1000000000"),
-            "`max_steps` must be at most",
+            "`selection.max_steps` must be 1 to 10000",
         ),
-        (&PHASE_500.replace("400,", "18446744073709551615,"), "`attempts` must be at most"),
+        (&PHASE_500.replace("400,", "18446744073709551615,"), "`selection.attempts` must be 1 to 1000000"),
     ];
     for (text, part) in cases {
         let sentence = Preset::parse("demo", text).expect_err(part).to_string();

@@ -122,7 +122,7 @@ fn what_is_no_shard_is_refused() {
         (text.replace("shard/3", "shard/7"), "format"),
         (text[..60].to_owned(), "truncated"),
         (text.replace("preset", "recipe"), "recipe"),
-        (text.replace("\"slots\":5", "\"slots\":9000000000000000000"), "at most 1000000 events"),
+        (text.replace("\"slots\":5", "\"slots\":9000000000000000000"), "must be 1 to 1000000"),
     ];
     for (text, part) in cases {
         fs::write(path.join("shard.json"), text).expect("written");

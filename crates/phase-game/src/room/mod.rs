@@ -13,7 +13,9 @@ use crate::{
     message::PROTOCOL,
 };
 use core::time::Duration;
-use phase_model::{AGENT_COUNT, Action, AgentId, Entity, Goal, PhysicsConfig, Sign, words::Names};
+use phase_model::{
+    AGENT_COUNT, Action, AgentId, Entity, Goal, PhysicsConfig, Sign, setting::EVENT_STEPS, words::Names,
+};
 use phase_predicates::achieved;
 use phase_sim::{Simulation, SimulationError, SimulationSettings};
 use telling::Told;
@@ -387,9 +389,10 @@ impl Room {
     }
 }
 
-/// A round at its start. Only agents that are not played have minds.
+/// A round at its start. Only agents that are not played have minds. A simulation that is over can be stepped on: when a round
+/// ends is decided here.
 fn simulation_of(round: &Round, settings: &GameSettings) -> Result<Simulation, SimulationError> {
     let minds = settings.players.map(|player| player == Player::Mind);
-    let simulation = SimulationSettings { max_steps: usize::MAX, ..settings.simulation };
+    let simulation = SimulationSettings { max_steps: EVENT_STEPS.most(), ..settings.simulation };
     Simulation::with_minds(&round.scene, round.seed, &simulation, minds)
 }

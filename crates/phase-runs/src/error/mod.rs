@@ -8,7 +8,7 @@ use phase_baselines::training::{NetworkError, TrainingRecordError};
 use phase_dataset::ExportError;
 use phase_event::{EventWriteError, MethodError};
 use phase_files::{FileError, WriteError, folder::FolderError};
-use phase_model::json::edit_distance;
+use phase_model::json::{FieldError, edit_distance};
 use phase_render::RenderError;
 use phase_sampler::SampleError;
 use phase_sim::SimulationError;
@@ -119,14 +119,14 @@ pub enum RunError {
         source: serde_json::Error,
     },
     /// The settings that an event was made with cannot be used.
-    #[error("{}: event {id}: field `settings`: {source}", file.display())]
+    #[error("{}: event {id}: {source}", file.display())]
     SimulationSettings {
         /// The file.
         file: PathBuf,
         /// The event.
         id: String,
         /// Why.
-        source: serde_json::Error,
+        source: FieldError,
     },
     /// An event is too short for the requested operation.
     #[error("{}: event {id} has only one row, its start; {needed}", file.display())]

@@ -2,7 +2,8 @@
 
 use super::Generation;
 use crate::effort::{Effort, MindChoice};
-use phase_minds::{Foresight, MindKind};
+use phase_minds::{Foresight, MindKind, PARTICLES, SIMULATIONS};
+use phase_model::setting::{EVENT_STEPS, EVENTS, Setting};
 use phase_sim::Engine;
 
 /// Beginning of the command.
@@ -42,24 +43,24 @@ impl Generation {
             &mut self.effort;
         match option {
             "--preset" => self.preset = value.into(),
-            "--events" => self.events = Some(value.parse().ok().filter(|events| *events > 0)?),
+            "--events" => self.events = Some(number(&EVENTS, value)? as usize),
             "--seed" => self.seed = Some(value.parse().ok()?),
             "--date-published" => self.date_published = Some(value.into()),
             "--engine" => *engine = Some(Engine::named(value)?),
             "--minds" => *kind = Some(MindKind::ALL.into_iter().find(|kind| kind.name() == value)?),
             "--foresight" => *foresight = Some(Foresight::ALL.into_iter().find(|it| it.name() == value)?),
-            "--particles" => *particles = Some(number(value)?),
-            "--simulations" => *simulations = Some(number(value)?),
-            "--max-steps" => *max_steps = Some(number(value)?),
+            "--particles" => *particles = Some(number(&PARTICLES, value)?),
+            "--simulations" => *simulations = Some(number(&SIMULATIONS, value)?),
+            "--max-steps" => *max_steps = Some(number(&EVENT_STEPS, value)?),
             _ => return None,
         }
         Some(())
     }
 }
 
-/// A number above 0.
-fn number(text: &str) -> Option<u32> {
-    text.parse().ok().filter(|number| *number > 0)
+/// A number in the range of a setting.
+fn number(setting: &Setting, text: &str) -> Option<u32> {
+    text.parse().ok().filter(|number| setting.check(f64::from(*number)).is_ok())
 }
 
 #[cfg(test)]

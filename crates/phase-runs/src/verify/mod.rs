@@ -20,6 +20,7 @@ use phase_files::{
     folder::{self, Contents, FolderError},
 };
 use phase_model::random::{self, Purpose};
+use phase_sim::SimulationSettings;
 use rand::seq::SliceRandom;
 use std::{
     fs,
@@ -97,6 +98,11 @@ pub fn problems(
     };
     let mut problems = verify_with(folder, manifest, &|steps| progress.steps(steps), run)?;
     drop(progress);
+    // Those of the events are the same but for lengths, which the check of an event compares with its rows.
+    if let Err(error) = SimulationSettings::read(&manifest.settings, "settings") {
+        let problem = Problem::Shape { what: "manifest", rule: error.to_string() };
+        problems.push(FileError { file: folder.join(MANIFEST_FILE), problem });
+    }
     let digest = FileEntry::of(folder, MANIFEST_FILE)?.sha256;
     if checks.digest.as_ref().is_some_and(|expected| *expected != digest) {
         let file = folder.join(MANIFEST_FILE);

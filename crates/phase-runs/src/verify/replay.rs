@@ -175,8 +175,8 @@ impl<'a> Recorded<'a> {
     /// The settings, all of whose members have to have a meaning.
     fn settings(&self) -> Result<SimulationSettings, FileError> {
         let found = &self.simulation.settings;
-        let settings: SimulationSettings = serde_json::from_value(found.clone())
-            .map_err(|error| self.fail("settings", error.to_string()))?;
+        let settings = SimulationSettings::read(found, "settings")
+            .map_err(|error| self.fail(&error.field, error.rule))?;
         match settings_value(&settings) {
             Ok(value) if value == *found => Ok(settings),
             _ => Err(self.fail("settings", "holds what is no setting, or lacks one".into())),
