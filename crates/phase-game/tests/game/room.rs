@@ -4,11 +4,11 @@ use crate::support::{GREEN, RED, Table, round, settings};
 use core::time::Duration;
 use phase_event::{Controller, Recording, Thought};
 use phase_game::{
-    Doing, Effect, Ending, Entry, FromPlayer, GameSettings, Player, RoomError, STEP, ToPlayer, View,
+    Doing, Effect, Ending, Entry, FromPlayer, GameSettings, Player, Room, RoomError, STEP, ToPlayer, View,
 };
 use phase_model::{Action, AgentId, Entity, Goal, LandmarkId, Sign, Vec2, arena};
 use phase_perception::observe;
-use phase_sim::{Simulation, SimulationError, SimulationSettings};
+use phase_sim::{Simulation, SimulationSettings};
 
 #[test]
 fn two_people_play_all_rounds() {
@@ -231,22 +231,12 @@ fn late_steps_are_not_made_up_for() {
 }
 
 #[test]
-fn a_failed_simulation_ends_the_game_and_says_why() {
+fn minds_that_no_machine_can_search_with_open_no_room() {
     let mut settings = settings([Player::Human, Player::Mind]);
-    // A search tree of so many nodes cannot be had, which the search finds when it begins.
     settings.simulation.minds = settings.simulation.minds.with_simulations(usize::MAX);
-    let mut table = Table::new(settings, vec![round("", "independent")]).both_come();
-    table.tell(RED, FromPlayer::Ready);
-    table.room.think();
-    table.play_until(Doing::Over);
-    let errors = table.effects.iter().filter_map(|effect| match effect {
-        Effect::Failed(error) => Some(error),
-        _ => None,
-    });
-    let errors: Vec<_> = errors.collect();
-    assert!(matches!(errors[..], [RoomError::Simulation(SimulationError::Search(_))]), "{errors:?}");
-    assert!(errors[0].to_string().contains("simulations"), "{}", errors[0]);
-    assert_eq!(table.entries().last(), Some(&Entry::Over { ending: Ending::Failed }));
+    let rounds = vec![round("", "independent")];
+    let refused = Room::open("room", [None, None], settings, rounds, Duration::ZERO).unwrap_err();
+    assert!(refused.to_string().contains("`minds.simulations` must be 1 to 1000000"), "{refused}");
 }
 
 /// Whoever repeats a message makes no work for the other player.

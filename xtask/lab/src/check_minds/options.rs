@@ -31,7 +31,7 @@ pub struct CheckMinds {
     pub parameters: Option<PathBuf>,
     /// POMCP simulations a decision at observed states and within SIMPLE [default: 50, with published minds
     /// 200]
-    #[arg(long, value_name = "N", value_parser = value_parser!(u32).range(1..=10_000_000))]
+    #[arg(long, value_name = "N", value_parser = value_parser!(u32).range(phase_minds::SIMULATIONS.bounds()))]
     pub simulations: Option<u32>,
     /// Searches of so many simulations a decision at observed states, which only published minds repeat
     /// [default: 5]
@@ -39,7 +39,7 @@ pub struct CheckMinds {
     pub searches: Option<u32>,
     /// POMCP simulations a decision in the open loop
     #[arg(long, value_name = "N", default_value_t = 1000,
-        value_parser = value_parser!(u32).range(1..=10_000_000))]
+        value_parser = value_parser!(u32).range(phase_minds::SIMULATIONS.bounds()))]
     pub simulations_open_loop: u32,
     /// Simulations of every scene in the open loop; with 0 that part is left out
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = value_parser!(u16).range(0..=1000))]

@@ -24,7 +24,7 @@ pub struct FitInference {
     #[arg(long, value_name = "FILE", conflicts_with = "minds")]
     pub parameters: Option<PathBuf>,
     /// POMCP simulations a decision [default: SIMPLE's, 50, with published minds 100]
-    #[arg(long, value_name = "N", value_parser = value_parser!(u32).range(1..=10_000_000))]
+    #[arg(long, value_name = "N", value_parser = value_parser!(u32).range(phase_minds::SIMULATIONS.bounds()))]
     pub simulations: Option<u32>,
     /// Steps from one decision that is looked at to the next [default: SIMPLE's, 3]
     #[arg(long, value_name = "N", value_parser = value_parser!(u16).range(1..=1000))]

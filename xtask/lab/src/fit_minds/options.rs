@@ -36,7 +36,7 @@ pub struct FitMinds {
     pub rounds: u16,
     /// POMCP simulations a decision
     #[arg(long, value_name = "N", default_value_t = 50,
-        value_parser = value_parser!(u32).range(1..=10_000_000))]
+        value_parser = value_parser!(u32).range(phase_minds::SIMULATIONS.bounds()))]
     pub simulations: u32,
     /// In place of a fit, show what the parameters are worth: the figures with each of them at its neutral
     /// value
