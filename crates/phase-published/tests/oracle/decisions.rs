@@ -8,9 +8,9 @@ use phase_model::{
 use phase_published::{Mind, PublishedParameters, RandomNumbers};
 use serde_json::Value;
 
-/// Least share of the searches that choose as the original. Rounding errors of single precision part the
-/// others: from the first close comparison that they decide, a search draws other numbers.
-const SAME_ACTION: f64 = 0.84;
+/// Least share of the searches that choose as the original. The others part where rounding decides a close
+/// comparison or how bodies collide: from there on a search draws other numbers.
+const SAME_ACTION: f64 = 0.86;
 
 fn particles(of: &Value) -> Option<Vec<State>> {
     let particles = of["particles"].as_array()?;
@@ -39,11 +39,14 @@ fn searches_are_the_originals() {
             ..PublishedParameters::default()
         };
         let mut first: Option<Mind> = None;
+        // The second agent's random numbers follow from the first one's search.
+        let mut is_followed = true;
         for of in list(&case["agents"]) {
             let who: AgentId = agent(whole(&of["agent"]));
             let mut mind = Mind::new(&scene, who, parameters).expect("a mind");
-            let Some(particles) = particles(of) else {
+            let Some(particles) = particles(of).filter(|_| is_followed) else {
                 skipped += list(&of["searches"]).len();
+                is_followed = false;
                 continue;
             };
             if let Some(first) = &first {
@@ -85,7 +88,7 @@ fn searches_are_the_originals() {
         }
     }
     println!(
-        "subgoals: {subgoals}; actions: {chosen}; visits: {visits}; values within 0.001: {values}; {skipped} searches without particles"
+        "subgoals: {subgoals}; actions: {chosen}; visits: {visits}; values within 0.001: {values}; {skipped} searches whose particles, or those of the search before, are left out"
     );
     assert_eq!(subgoals.different, 0);
     assert!(chosen.equal as f64 >= SAME_ACTION * chosen.total() as f64);
