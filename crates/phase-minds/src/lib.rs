@@ -70,7 +70,7 @@ pub trait Mind: core::fmt::Debug + Send {
         random: &mut Pcg64Mcg,
     ) -> Result<(Action, Thought), PomcpError>;
 
-    /// Where the last decision has left the original's stream of random numbers; 0 for minds with others.
+    /// The position at which the last decision has left the original's stream of random numbers; 0 for minds with others.
     fn stream_position(&self) -> u64 {
         0
     }

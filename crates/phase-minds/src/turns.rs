@@ -2,7 +2,7 @@
 
 use phase_model::{Action, AgentBody, Layout, Strength};
 
-/// Which of the published recorder's defects agents' bodies have. They belong to the body and not to the mind:
+/// The published recorder's defects that agents' bodies have. They belong to the body and not to the mind:
 /// simulations and inference have the switches in their own settings.
 #[derive(Clone, Copy, PartialEq, Eq, Default, Debug)]
 pub struct Recorder {

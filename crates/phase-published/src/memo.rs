@@ -44,7 +44,7 @@ pub(crate) struct Search<'a> {
     pub(crate) roots: &'a [State],
 }
 
-/// What the searches of one decision found.
+/// The result of the searches of one decision.
 #[derive(Clone, Debug)]
 pub(crate) struct Findings {
     pub(crate) action: Action,

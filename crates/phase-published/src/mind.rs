@@ -74,7 +74,7 @@ impl Mind {
         self.rules.aim(state)
     }
 
-    /// What a possible state of the world costs a subgoal's value: the distance left to the final goal, of the
+    /// The cost of a possible state of the world in a subgoal's value: the distance left to the final goal, of the
     /// other if the agent helps or hinders it, times the weight.
     #[must_use]
     pub fn cost(&self, state: &State) -> f64 {
@@ -116,7 +116,7 @@ impl Mind {
         Ok((action, thought))
     }
 
-    /// Where the last decision has left the original's stream of random numbers, as words drawn; 0 with other
+    /// The position at which the last decision has left the original's stream of random numbers, as words drawn; 0 with other
     /// random numbers.
     #[must_use]
     pub const fn stream_position(&self) -> u64 {
@@ -177,7 +177,8 @@ impl Mind {
 
     fn search_with(&self, search: &Search<'_>, draws: &mut impl Draws) -> Findings {
         let Search { agent, aim, parameters, actions, roots, .. } = *search;
-        let (rooms, imagined) = (&self.rules.rooms, &self.imagined);
+        let rooms = &self.rules.rooms;
+        let imagined = &self.imagined;
         let task = Task { agent, aim, actions, roots, rooms, imagined, parameters };
         let nothing = |&action: &Action| ActionEvaluation { action, visits: 0, value: 0.0 };
         let mut evaluations: Vec<ActionEvaluation> = actions.iter().map(nothing).collect();

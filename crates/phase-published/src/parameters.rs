@@ -37,7 +37,7 @@ pub struct PublishedParameters {
     /// Whether agents of the greatest strength coast when they mean to stop, in the mind's imagination. That
     /// is how it was when the published events were recorded; the bodies' own settings are elsewhere.
     pub strongest_coasts: bool,
-    /// Where the random numbers of searches come from.
+    /// The source of the random numbers of searches.
     pub random: RandomNumbers,
 }
 

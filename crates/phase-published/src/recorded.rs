@@ -25,7 +25,7 @@ pub(crate) const SEARCH_SEED: u32 = 1;
 
 /// Factor by which outlines are enlarged to tell whether bodies touch (G, `calculate_collision`).
 pub(crate) const TOUCH_SCALE: f32 = 1.2;
-/// Where a ray crosses a wall is rounded to this (u) (G, `_update_FOV`).
+/// The place at which a ray crosses a wall is rounded to this (u) (G, `_update_FOV`).
 pub(crate) const SIGHT_GRAIN: f32 = 0.01;
 /// Points on an object's circle whose cells are its perimeter (G, `update_observations`).
 pub(crate) const CIRCLE_POINTS: usize = 16;

@@ -18,7 +18,7 @@ pub struct Redraw<'a> {
     pub flip: Option<Flip>,
     /// Every cell ever seen.
     pub seen: &'a CellSet,
-    /// What the agent observes.
+    /// The agent's observation.
     pub observation: &'a Observation,
     /// The state of the world, where it is known: the original looks at it, and tolerates an unseen body near
     /// its true place.

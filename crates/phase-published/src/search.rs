@@ -4,7 +4,7 @@ use crate::{aim::Aim, parameters::PublishedParameters, rooms::Rooms, stream::Dra
 use phase_forward::Imagined;
 use phase_model::{AGENT_COUNT, Action, AgentId, Entity, MAX_OBJECTS, ObjectId, State, Vec2};
 
-/// What a search is about.
+/// The task of a search.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Task<'a> {
     pub(crate) agent: AgentId,
@@ -17,7 +17,7 @@ pub(crate) struct Task<'a> {
     pub(crate) parameters: &'a PublishedParameters,
 }
 
-/// What a search found.
+/// The result of a search.
 #[derive(Clone, PartialEq, Debug)]
 pub(crate) struct Found {
     /// The actions in the order in which they were compared, with visits and mean returns.

@@ -179,6 +179,7 @@ fn hides(wall: &Segment, from: Vec2, ray: Vec2) -> bool {
     }
     let rounded = |it: Vec2| (it / SIGHT_GRAIN).round() * SIGHT_GRAIN;
     let place = rounded(from + ray * on_ray);
-    let (min, max) = (wall.a.min(wall.b) - SIGHT_TOLERANCE, wall.a.max(wall.b) + SIGHT_TOLERANCE);
+    let min = wall.a.min(wall.b) - SIGHT_TOLERANCE;
+    let max = wall.a.max(wall.b) + SIGHT_TOLERANCE;
     place.cmpge(min).all() && place.cmple(max).all()
 }

@@ -6,7 +6,7 @@ use rand::RngExt;
 use rand_mt::Mt;
 use serde::{Deserialize, Serialize};
 
-/// Where the random numbers of searches come from.
+/// The source of the random numbers of searches.
 #[derive(Clone, Copy, PartialEq, Eq, Default, Debug, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum RandomNumbers {

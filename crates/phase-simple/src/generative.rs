@@ -319,7 +319,7 @@ pub(crate) struct SimulationRun {
     /// The states after the substeps of the last step.
     substeps: [State; SUBSTEPS],
     last_actions: [Option<Action>; AGENT_COUNT],
-    /// Where the first agent's decision has left the original's random numbers, until the second decides.
+    /// The position at which the first agent's decision has left the original's random numbers, until the second decides.
     led_to: Option<u64>,
 }
 

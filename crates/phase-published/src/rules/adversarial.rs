@@ -60,7 +60,8 @@ impl View<'_> {
         let fetch =
             if self.state.holds(self.me, object) { Some(0) } else { self.steps(self.my_room(), here) };
         way.windows(2).enumerate().find_map(|(others_steps, pair)| {
-            let (before, after) = (pair[0], pair[1]);
+            let before = pair[0];
+            let after = pair[1];
             if self.rooms().door(before, after)?.length() >= diameter {
                 return None;
             }
@@ -98,7 +99,8 @@ impl View<'_> {
         if self.rooms().is_open() {
             return Aim::ObjectToLandmark(object, landmark, Sign::Negative);
         }
-        let (there, others) = (self.object_room(object), self.other_room());
+        let there = self.object_room(object);
+        let others = self.other_room();
         let radii = [self.radius(self.other), self.rules.physics.object_radii[object]];
         if self.rules.layout.base() == SMALL_PLUG_BASE && radii.iter().all(|&it| it == Size::Small.radius()) {
             return if self.other_cannot(others, there) {
@@ -163,7 +165,7 @@ impl View<'_> {
         self.state.grips[self.other].is_some() || self.other_room() == self.object_room(object)
     }
 
-    /// What to do about an object that the agent cannot reach; `None` if it can.
+    /// The subgoal for an object that the agent cannot reach; `None` if it can.
     fn out_of_reach(&self, object: ObjectId) -> Option<Aim> {
         let there = self.object_room(object);
         if !self.rooms().blocked(self.my_room(), there, self.radius(self.me)) {
@@ -176,9 +178,11 @@ impl View<'_> {
         })
     }
 
-    /// What to do where walls can keep an object from the other; `None` if they cannot.
+    /// The subgoal where walls can keep an object from the other; `None` if they cannot.
     fn keep_apart(&self, object: ObjectId) -> Option<Aim> {
-        let (here, there, others) = (self.my_room(), self.object_room(object), self.other_room());
+        let here = self.my_room();
+        let there = self.object_room(object);
+        let others = self.other_room();
         let hidden = RoomId::ALL.into_iter().find(|&room| {
             room != others
                 && room != there
@@ -198,10 +202,11 @@ impl View<'_> {
     /// Drags an object to the room farthest from it that is nearer to it than to the other. `None` if there is
     /// none.
     fn drag_away(&self, object: ObjectId) -> Option<Aim> {
-        let (there, others) = (self.object_room(object), self.other_room());
+        let there = self.object_room(object);
+        let others = self.other_room();
         let far_from = |entity| move |room| self.rooms().room_distance(self.state.position(entity), room);
-        let (from_object, from_other) =
-            (far_from(Entity::Object(object)), far_from(Entity::Agent(self.other)));
+        let from_object = far_from(Entity::Object(object));
+        let from_other = far_from(Entity::Agent(self.other));
         let room = RoomId::ALL
             .into_iter()
             .filter(|&room| room != others && room != there && from_object(room) < from_other(room))

@@ -6,8 +6,8 @@ use phase_forward::Imagined;
 use phase_model::{Action, Dynamics, Entity};
 use phase_published::{Redraw, senses::observe};
 
-/// Particles that may differ: one whose object lies on the arena's boundary, which pushes it out there, and two
-/// in which an agent grabs what the original has at an earlier place.
+/// Particles that may differ: one whose object lies on the arena's boundary, which pushes it out there, and
+/// one in which an agent grabs what the original has at an earlier place.
 const KNOWN: usize = 2;
 
 #[test]
