@@ -84,7 +84,8 @@ fn main() {
     criterion.bench_function("agent/one decision at the paper's settings", |bencher| {
         let mut random = stream(1, Purpose::Belief, 0);
         let parameters = PhaseParameters::default().into();
-        let mut agent = Agent::new(&scene, &parameters, &observation, &mut random).expect("good parameters");
+        let mut agent =
+            Agent::new(&scene, &parameters, &observation, None, &mut random).expect("good parameters");
         let mut search = stream(1, Purpose::Search, 0);
         bencher.iter(|| agent.decide(&mut search));
     });
@@ -114,13 +115,13 @@ fn scaling(criterion: &mut Criterion, scene: &Scene) {
         for (count, settings) in settings {
             let mut random = stream(1, Purpose::Belief, 0);
             let mut search = stream(1, Purpose::Search, 0);
-            let mut agent =
-                Agent::new(scene, &settings.into(), &observation, &mut random).expect("good parameters");
+            let mut agent = Agent::new(scene, &settings.into(), &observation, None, &mut random)
+                .expect("good parameters");
             group.bench_function(BenchmarkId::from_parameter(count), |bencher| {
                 bencher.iter(|| {
                     let decision = agent.decide(&mut search);
                     // Nothing moves, so that every round decides on the same state.
-                    agent.perceive(Action::NoForce, &observation, &mut random);
+                    agent.perceive(Action::NoForce, &observation, &[], &mut random);
                     decision
                 });
             });

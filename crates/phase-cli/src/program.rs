@@ -13,7 +13,7 @@ pub trait Interface: Subcommand {
     /// Why a command fails.
     type Error: Failure;
 
-    /// What the program is, in a line.
+    /// A line on the purpose of the program.
     const ABOUT: &'static str;
 
     /// Runs the command.

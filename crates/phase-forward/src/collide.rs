@@ -14,8 +14,9 @@ use phase_model::Vec2;
 /// are such ties, and rounding must not decide their direction.
 const TIE_TOLERANCE: f32 = 1e-5;
 
-/// Cosine of the angle to a wall's normal below which a push leads across the wall rather than along it. An agent that lies across
-/// a wall gets off it on the side of its centre of mass, even if it lies mostly on the other: there is no way through a wall.
+/// Cosine of the angle to a wall's normal below which a push leads across the wall rather than along it. An
+/// agent that lies across a wall gets off it on the side of its centre of mass, even if it lies mostly on the
+/// other: there is no way through a wall.
 const ACROSS: f32 = 0.1;
 
 /// The first shape's side is the reference unless the second's gap exceeds this share of the first's plus

@@ -7,8 +7,8 @@ use crate::{
 };
 use phase_model::{Segment, Vec2, arena};
 
-/// Distance of a centre of mass from a wall below which a body lies across the wall, in radii of the body. It is kept on its side,
-/// and not where it is: it may get off past the wall's end.
+/// Distance of a centre of mass from a wall below which a body lies across the wall, in radii of the body. It
+/// is kept on its side, and not where it is: it may get off past the wall's end.
 const LYING_ACROSS: f32 = 0.5;
 
 impl World<'_> {

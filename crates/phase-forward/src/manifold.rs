@@ -6,8 +6,8 @@ use phase_model::Vec2;
 /// The shape that the normal belongs to.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum Reference {
-    /// Neither: the normal leads from the one point of the first shape to the one point of the second, and in the direction
-    /// [`APART`] where the two are the same.
+    /// Neither: the normal leads from the one point of the first shape to the one point of the second, and in
+    /// the direction [`APART`] where the two are the same.
     Points,
     /// A face of the first shape.
     First,
@@ -15,8 +15,9 @@ pub(crate) enum Reference {
     Second,
 }
 
-/// The normal of two points at one place, so that there always is one, and the same for the same state. The axes of the arena are
-/// those of its walls: along a wall, a body at its end gets off the end or onto the wall's side, and from there off the wall.
+/// The normal of two points at one place, so that there always is one, and the same for the same state. The
+/// axes of the arena are those of its walls: along a wall, a body at its end gets off the end or onto the
+/// wall's side, and from there off the wall.
 const APART: Vec2 = Vec2::X;
 
 /// A contact of two shapes, in local frames so that it stays valid while the position solver moves them.

@@ -147,7 +147,8 @@ fn report(going: Going, unit: &str, errors: &mut [f32]) {
     );
 }
 
-/// A state that comes from elsewhere than a scene, such as an observation, may have any angle. Both engines take it for the same.
+/// A state that comes from elsewhere than a scene, such as an observation, may have any angle. Both engines
+/// take it for the same.
 #[test]
 fn angles_that_no_scene_has_are_the_same_in_both_engines() {
     let body = phase_model::AgentBody { radius: 0.8, max_force: 450.0 };

@@ -1,4 +1,5 @@
-//! Bodies that begin in each other or in walls get out, in every engine: minds must not take for fixed what the world parts.
+//! Bodies that begin in each other or in walls get out, in every engine: minds must not take for fixed what
+//! the world parts.
 
 #[allow(dead_code)]
 mod scenes;
@@ -152,8 +153,8 @@ fn points_get_off_walls() {
     }
 }
 
-/// Whether a body begins in the gap between the boundary and an inner wall and is too large for it: it is wedged there, and the
-/// engines may leave it.
+/// Whether a body begins in the gap between the boundary and an inner wall and is too large for it: it is
+/// wedged there, and the engines may leave it.
 fn is_wedged(physics: &PhysicsConfig, state: &State) -> bool {
     physics.entities().any(|entity| {
         let position = state.position(entity);
@@ -185,7 +186,8 @@ fn whatever_overlaps_at_the_start_parts() {
         }
     }
     assert!(tried > CASES / 2, "{tried}");
-    // An agent that begins across the place where several walls meet may be pushed from one into the other for ever.
+    // An agent that begins across the place where several walls meet may be pushed from one into the other
+    // for ever.
     let most = tried / 200;
     assert!(stuck.iter().all(|&stuck| stuck <= most), "of {tried}, in exact, coarse, warm, world: {stuck:?}");
 }

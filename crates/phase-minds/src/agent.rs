@@ -21,8 +21,8 @@ pub struct Agent {
 }
 
 impl Agent {
-    /// The agent of a scene that made an observation, its first, of a state, with the belief that follows from
-    /// it.
+    /// The agent of a scene that made an observation, its first, of a state, with the belief that follows
+    /// from it.
     ///
     /// # Errors
     /// [`PomcpError`] for parameters that [`MindParameters::validate`] refuses and a search cannot have.

@@ -70,7 +70,8 @@ pub trait Mind: core::fmt::Debug + Send {
         random: &mut Pcg64Mcg,
     ) -> Result<(Action, Thought), PomcpError>;
 
-    /// The position at which the last decision has left the original's stream of random numbers; 0 for minds with others.
+    /// The position at which the last decision has left the original's stream of random numbers; 0 for minds
+    /// with others.
     fn stream_position(&self) -> u64 {
         0
     }
@@ -89,8 +90,8 @@ pub trait BeliefState: core::fmt::Debug + Send + Sync {
     /// Updates the belief with the observation after an action.
     ///
     /// `substeps` are the true states after the substeps, the last of which is observed, or none where nobody
-    /// knows them. Only published minds look at them: what comes into view within the step counts as seen, and an unseen body
-    /// that is believed near its true place is left there, as in the original.
+    /// knows them. Only published minds look at them: what comes into view within the step counts as seen,
+    /// and an unseen body that is believed near its true place is left there, as in the original.
     fn update(
         &mut self,
         action: Action,

@@ -223,9 +223,10 @@ impl MindParameters {
         matches!(self, Self::Published(PublishedParameters { random: RandomNumbers::Original, .. }))
     }
 
-    /// These parameters for published minds with the original's random numbers, if they are wanted, and either
-    /// as in the recordings or as in worlds of ours: in the former they know that agents of the greatest
-    /// strength coast when they mean to stop, and have the older actions. Other minds stay as they are.
+    /// These parameters for published minds with the original's random numbers, if they are wanted, and
+    /// either as in the recordings or as in worlds of ours: in the former they know that agents of the
+    /// greatest strength coast when they mean to stop, and have the older actions. Other minds stay as they
+    /// are.
     #[must_use]
     pub const fn as_recorded(mut self, original_random: bool, recorded: bool) -> Self {
         if let Self::Published(parameters) = &mut self {

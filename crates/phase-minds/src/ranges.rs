@@ -1,8 +1,8 @@
 //! The range of every parameter of every kind of mind.
 //!
-//! Bounds are those of what can be meant, and of what a machine can do. A particle is a state of 120 bytes that is planned
-//! from in some 0.1 ms: 100,000 are 12 MB and ten seconds a decision. A simulation adds at most a node of 0.5 kB to the
-//! tree: 1,000,000 are 500 MB. Lengths end at five times the side of the arena.
+//! Bounds are those of what can be meant, and of what a machine can do. A particle is a state of 120 bytes
+//! that is planned from in some 0.1 ms: 100,000 are 12 MB and ten seconds a decision. A simulation adds at
+//! most a node of 0.5 kB to the tree: 1,000,000 are 500 MB. Lengths end at five times the side of the arena.
 
 use phase_agent::PhaseParameters;
 use phase_model::setting::{RangeError, Setting};
@@ -16,8 +16,8 @@ pub const SIMULATIONS: Setting = Setting::whole("simulations", "", 1, 1_000_000)
 const SEARCHES: Setting = Setting::whole("searches", "", 1, 100);
 /// Steps of a rollout; the paper's events have 100 steps in all.
 const ROLLOUT_STEPS: Setting = Setting::whole("rollout_steps", "steps", 0, 1000);
-/// Steps that a decision may imagine in its rollouts, which bounds its time: a coarse step takes about a microsecond, an
-/// exact one some more. Each of its factors may be large, not all of them at once.
+/// Steps that a decision may imagine in its rollouts, which bounds its time: a coarse step takes about a
+/// microsecond, an exact one some more. Each of its factors may be large, not all of them at once.
 const IMAGINED_STEPS: Setting =
     Setting::whole("simulations × searches × rollout_steps", "steps", 0, 100_000_000);
 const LAMBDA: Setting = Setting::real("lambda", "1/u", 0.0, 1000.0);

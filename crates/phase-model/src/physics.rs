@@ -223,11 +223,12 @@ impl PhysicsConfig {
     }
 }
 
-/// Greatest angle of a body, to either side (rad): 16,000 turns. Beyond it, adjacent numbers differ by a visible rotation.
+/// Greatest angle of a body, to either side (rad): 16,000 turns. Beyond it, adjacent numbers differ by a
+/// visible rotation.
 pub const MAX_ANGLE: f32 = 1e5;
 
-/// The angle that engines take a body's to be: 0 if it is no number, and the closest of [`MAX_ANGLE`] if it is beyond. A scene has
-/// no such angles ([`Scene::validate`](crate::Scene::validate)).
+/// The angle that engines take a body's to be: 0 if it is no number, and the closest of [`MAX_ANGLE`] if it
+/// is beyond. A scene has no such angles ([`Scene::validate`](crate::Scene::validate)).
 #[must_use]
 pub const fn valid_angle(angle: f32) -> f32 {
     if angle.is_finite() { angle.clamp(-MAX_ANGLE, MAX_ANGLE) } else { 0.0 }

@@ -1,8 +1,9 @@
 //! Settings that somebody chooses: their names, units and ranges, and the error of a value outside.
 //!
-//! A setting often decides how much memory and time a program takes. Each is declared once, as a [`Setting`] beside the
-//! struct that holds its value, and whatever reads one (command line, file, Python) checks it there. Upper bounds are
-//! far above what anybody needs, and low enough that one step stays within a few gigabytes and minutes.
+//! A setting often decides how much memory and time a program takes. Each is declared once, as a [`Setting`]
+//! beside the struct that holds its value, and whatever reads one (command line, file, Python) checks it
+//! there. Upper bounds are far above what anybody needs, and low enough that one step stays within a few
+//! gigabytes and minutes.
 //!
 //! ```
 //! use phase_model::setting::EVENT_STEPS;
@@ -17,8 +18,8 @@
 use crate::json::FieldError;
 use thiserror::Error;
 
-/// Longest event (steps of 0.25 s). A step keeps five states and two thoughts, some kilobytes: an event of this length has tens of
-/// megabytes, and lasts 42 minutes; the paper's last 25 s.
+/// Longest event (steps of 0.25 s). A step keeps five states and two thoughts, some kilobytes: an event of
+/// this length has tens of megabytes, and lasts 42 minutes; the paper's last 25 s.
 pub const EVENT_STEPS: Setting = Setting::whole("max_steps", "steps", 1, 10_000);
 /// Threads of one program. More than cores only cost memory: each has a stack of some megabytes.
 pub const THREADS: Setting = Setting::whole("threads", "", 1, 1024);
@@ -133,14 +134,14 @@ pub struct RangeError {
 }
 
 impl RangeError {
-    /// The same of a setting inside of another object, whose path goes before the setting's.
+    /// This error for a setting inside of another object, whose path goes before the setting's.
     #[must_use]
     pub fn within(self, path: &str) -> Self {
         let field = if path.is_empty() { self.field } else { format!("{path}.{}", self.field) };
         Self { field, ..self }
     }
 
-    /// The same as the error of a reader of JSON; `path` leads to the object that has the setting.
+    /// This error as that of a reader of JSON; `path` leads to the object that has the setting.
     #[must_use]
     pub fn at(self, path: &str) -> FieldError {
         let Self { field, .. } = self.clone().within(path);

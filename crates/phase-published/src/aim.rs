@@ -32,8 +32,8 @@ pub enum Aim {
 const WALKING: [Action; 5] = [Action::TurnLeft, Action::TurnRight, Action::Up, Action::Stop, Action::NoForce];
 
 impl Aim {
-    /// The actions that the low level chooses from. `older` is the action set of recordings before the 28th of
-    /// August 2020, in which an agent may push in all directions on the way to a landmark.
+    /// The actions that the low level chooses from. `older` is the action set of recordings before the 28th
+    /// of August 2020, in which an agent may push in all directions on the way to a landmark.
     #[must_use]
     pub fn actions(self, own: AgentId, older: bool, state: &State) -> &'static [Action] {
         const ALL: &[Action; 14] = &Action::ALL;

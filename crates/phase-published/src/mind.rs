@@ -74,8 +74,8 @@ impl Mind {
         self.rules.aim(state)
     }
 
-    /// The cost of a possible state of the world in a subgoal's value: the distance left to the final goal, of the
-    /// other if the agent helps or hinders it, times the weight.
+    /// The cost of a possible state of the world in a subgoal's value: the distance left to the final goal,
+    /// of the other if the agent helps or hinders it, times the weight.
     #[must_use]
     pub fn cost(&self, state: &State) -> f64 {
         let Rules { rooms, agent, .. } = &self.rules;
@@ -116,8 +116,8 @@ impl Mind {
         Ok((action, thought))
     }
 
-    /// The position at which the last decision has left the original's stream of random numbers, as words drawn; 0 with other
-    /// random numbers.
+    /// The position at which the last decision has left the original's stream of random numbers, as words
+    /// drawn; 0 with other random numbers.
     #[must_use]
     pub const fn stream_position(&self) -> u64 {
         self.drawn

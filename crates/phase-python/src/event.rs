@@ -134,7 +134,7 @@ impl Event {
 /// The events of a file or folder, read one by one.
 #[pyclass(frozen, module = "phase_events._native")]
 pub(crate) struct EventSource {
-    /// Where it is, whatever the current folder.
+    /// The absolute path of the events.
     path: PathBuf,
     source: EventInput,
 }
@@ -207,8 +207,8 @@ pub(crate) fn simulate(
     Event::from_json(py, &text)
 }
 
-/// Writes a text file, whole or not at all. `PhaseError` if it cannot be written; an older one of that name is
-/// unchanged then.
+/// Writes a text file, whole or not at all. `PhaseError` if it cannot be written; an older one of that name
+/// is unchanged then.
 #[pyfunction]
 pub(crate) fn write_text(path: PathBuf, text: &str) -> PyResult<()> {
     atomic::write(&path, text.as_bytes()).map_err(raise)

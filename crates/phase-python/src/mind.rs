@@ -34,7 +34,7 @@ pub(crate) struct Mind {
     state: Arc<Mutex<MindState>>,
 }
 
-/// What a mind has gone through: its observations as vectors, (N, OBSERVATION_SIZE), the actions between
+/// The past of a mind: its observations as vectors, (N, OBSERVATION_SIZE), the actions between
 /// them, the last action, the number of searches, and the reasons of the last decision as JSON.
 type Past<'py> = (Bound<'py, PyArray2<f32>>, Vec<usize>, Option<usize>, u64, Option<String>);
 

@@ -68,8 +68,8 @@ impl Effort {
     /// The settings of the simulation, where minds have these parameters in place of the defaults.
     ///
     /// # Errors
-    /// [`RunError::Usage`], if other minds were requested, minds of this kind do not have a parameter that was
-    /// given, or it is out of its range.
+    /// [`RunError::Usage`], if other minds were requested, minds of this kind do not have a parameter that
+    /// was given, or it is out of its range.
     pub fn settings_with(&self, mut minds: MindParameters) -> Result<SimulationSettings, RunError> {
         if let Some(kind) = self.minds.kind.filter(|kind| *kind != minds.kind()) {
             let asked = kind.name();

@@ -36,9 +36,9 @@ type Plot = (&'static str, &'static str, &'static str, Vec<(String, f64)>);
 #[derive(Clone, Debug)]
 pub struct EventFigures {
     statistics: Statistics,
-    /// How events were selected, of a dataset.
+    /// The selection of the events of a dataset.
     selection: Vec<Acceptance>,
-    /// What can be told without looking at motion.
+    /// The shortcut audit: labels that can be predicted without looking at motion.
     audit: Option<Audit>,
 }
 

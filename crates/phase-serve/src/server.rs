@@ -14,10 +14,12 @@ use axum::{Router, body::Bytes, middleware};
 use phase_files::folder::Lock;
 use phase_game::playlist::Item;
 use std::{
-    future::Future,
+    future::{Future, poll_fn},
     net::{SocketAddr, TcpListener},
     path::PathBuf,
+    pin::pin,
     sync::Arc,
+    task::Poll,
     time::Duration,
 };
 use tokio::{runtime::Runtime, sync::watch};
@@ -146,6 +148,11 @@ impl Server {
         let router = router(Arc::new(app));
         runtime.block_on(async move {
             let stopped = stop.subscribe();
+            let mut until = pin!(until);
+            // What it waits for, such as a signal, is listened for before anybody is answered.
+            if poll_fn(|context| Poll::Ready(until.as_mut().poll(context).is_ready())).await {
+                return;
+            }
             let stopping = async move {
                 until.await;
                 // Nobody may be listening any more.

@@ -7,8 +7,8 @@ use phase_model::{AgentId, State, arena::SUBSTEPS};
 /// The states that an event's actions lead to from its first state, step by step, without asking any mind.
 ///
 /// Engine and rules (`engine`, `one_way_turns`, `strongest_coasts`, `stop_between_steps`) are those of
-/// `settings`; if the event was simulated with them by this version, the states are those of the event, bit for bit. `phase verify`
-/// compares them.
+/// `settings`; if the event was simulated with them by this version, the states are those of the event, bit
+/// for bit. `phase verify` compares them.
 pub fn replay<'a>(
     event: &'a Event,
     settings: &'a SimulationSettings,

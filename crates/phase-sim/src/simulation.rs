@@ -274,7 +274,8 @@ struct Minds {
     decided: [Option<(Action, Thought)>; AGENT_COUNT],
     /// The idle agent, if any.
     idle: Option<AgentId>,
-    /// The position at which the first agent's decision has left the original's random numbers, until the second decides.
+    /// The position at which the first agent's decision has left the original's random numbers, until the
+    /// second decides.
     led_to: Option<u64>,
 }
 

@@ -3,7 +3,7 @@
 use crate::{
     Intent, InversePlanningSettings, PreparedEvent,
     choice::{self, ByChoice, Chance},
-    generative::SimulationRun,
+    simulation_run::SimulationRun,
 };
 use phase_model::{AGENT_COUNT, AgentId, Goal, Strength};
 use phase_pomcp::PomcpError;

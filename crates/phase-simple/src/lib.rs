@@ -69,6 +69,7 @@ mod posterior;
 mod proposal;
 pub mod report_model;
 mod settings;
+mod simulation_run;
 mod simulations;
 pub mod strength;
 

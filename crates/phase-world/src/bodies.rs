@@ -28,8 +28,8 @@ pub(crate) fn pose(position: Vec2, angle: f32) -> Pose {
     Pose::from_parts(position, rotation(angle))
 }
 
-/// Distance from a wall at which a body is put that was centred on it, or outside of the arena (u). The engine has no direction in
-/// which it could push a disc off a surface on which its centre lies.
+/// Distance from a wall at which a body is put that was centred on it, or outside of the arena (u). The
+/// engine has no direction in which it could push a disc off a surface on which its centre lies.
 const MARGIN: f32 = 1e-3;
 
 /// A point of the arena that is not on its boundary: the point itself, or the closest one.

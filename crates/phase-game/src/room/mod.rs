@@ -389,8 +389,8 @@ impl Room {
     }
 }
 
-/// A round at its start. Only agents that are not played have minds. A simulation that is over can be stepped on: when a round
-/// ends is decided here.
+/// A round at its start. Only agents that are not played have minds. A simulation that is over can be stepped
+/// on: when a round ends is decided here.
 fn simulation_of(round: &Round, settings: &GameSettings) -> Result<Simulation, SimulationError> {
     let minds = settings.players.map(|player| player == Player::Mind);
     let simulation = SimulationSettings { max_steps: EVENT_STEPS.most(), ..settings.simulation };

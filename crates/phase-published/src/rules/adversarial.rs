@@ -199,8 +199,8 @@ impl View<'_> {
         is_between.then(|| Aim::AgentToRoom(self.other, self.rules.room(RoomId::BOTTOM_LEFT), Sign::Negative))
     }
 
-    /// Drags an object to the room farthest from it that is nearer to it than to the other. `None` if there is
-    /// none.
+    /// Drags an object to the room farthest from it that is nearer to it than to the other. `None` if there
+    /// is none.
     fn drag_away(&self, object: ObjectId) -> Option<Aim> {
         let there = self.object_room(object);
         let others = self.other_room();

@@ -131,7 +131,9 @@ impl<A> PredictionsFile<A> {
         let value = json::read(file)?;
         let fail =
             |error: EventReadError| FileError { file: file.to_owned(), problem: Problem::content(error) };
-        let name = match value.get("method") {
+        // A file of results says which method it scored; it is named after the file.
+        let named = value.get("method").filter(|_| value.get("format").is_none());
+        let name = match named {
             None | Some(Value::Null) => file.file_stem().unwrap_or_default().to_string_lossy().into_owned(),
             Some(Value::String(name)) => name.clone(),
             Some(_) => {

@@ -11,8 +11,8 @@
 //! Players press keys at random, or are minds that see what the server tells their agents. Printed as JSON:
 //! how late steps arrived, in milliseconds after the time at which they were due. A room's schedule begins
 //! with the step that came earliest relative to its number, so lateness includes the server, the sockets and
-//! the players' own waiting for a processor. Also the resident memory of the server and all players, which are
-//! one program, each ten seconds.
+//! the players' own waiting for a processor. Also the resident memory of the server and all players, which
+//! are one program, each ten seconds.
 
 mod client;
 mod mind;

@@ -85,8 +85,8 @@ impl Simple {
     }
 
     /// SIMPLE with minds of one kind in all its simulations, or the kind that it has if none is given.
-    /// `recorder` adds defects to their bodies, and `original_random` gives published minds the random numbers
-    /// of the original.
+    /// `recorder` adds defects to their bodies, and `original_random` gives published minds the random
+    /// numbers of the original.
     #[must_use]
     pub fn with_minds(mut self, kind: Option<MindKind>, recorder: Recorder, original_random: bool) -> Self {
         if let Some(kind) = kind {

@@ -43,7 +43,7 @@ impl Method {
     }
 }
 
-/// How well minds explain one event.
+/// Measures of how well minds explain one event.
 #[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
 pub(super) struct Explanation {
     /// ln of the posterior probability of the true goals and attitudes among all hypotheses (nat).

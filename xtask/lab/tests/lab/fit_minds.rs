@@ -126,7 +126,7 @@ fn rubbish_is_refused_in_one_sentence() {
         (&["--out", "no/such/out.json"], "folder does not exist"),
         (
             &["--folds", "3", "--parameters", "outside.json"],
-            "outside.json: field `momentum_prior` must be finite and above 0, not -1",
+            "outside.json: field `momentum_prior` must be above 0, to 1000, not -1",
         ),
         (
             &["--folds", "3", "--parameters", "beyond.json"],

@@ -185,7 +185,8 @@ mod tests {
     #[test]
     fn one_leaf_becomes_another() {
         let value = json!({
-            "a": [0, -7, u64::MAX, 0.25, 1.0e-9, 1e300], "b": {"c": "up", "d": null}, "e": true, "f": [[], {}],
+            "a": [0, -7, u64::MAX, 0.25, 1.0e-9, 1e300],
+            "b": {"c": "up", "d": null}, "e": true, "f": [[], {}],
         });
         assert_eq!(count(&value), 9);
         let mut met = std::collections::BTreeSet::new();

@@ -1,0 +1,128 @@
+//! One simulation of an event under a hypothesis, while it runs.
+
+use crate::{Hypothesis, ImaginedAgents};
+use phase_event::{ObservedEvent, Thought};
+use phase_forward::{Forward, SolverCache};
+use phase_minds::{BeliefView, Mind, Recorder, SearchMemo, mind, mind_sharing};
+use phase_model::{
+    AGENT_COUNT, Action, AgentBody, AgentId, BodySet, Layout, MAX_ENTITIES, State, Vec2,
+    arena::SUBSTEPS,
+    random::{self, Pcg64Mcg, Purpose},
+};
+use phase_pomcp::PomcpError;
+
+/// A simulation under way.
+#[derive(Debug)]
+pub(crate) struct SimulationRun {
+    layout: Layout,
+    recorder: Recorder,
+    bodies: [AgentBody; AGENT_COUNT],
+    /// Whether both minds draw from one stream of random numbers, as in the original.
+    pub(crate) shares_random: bool,
+    forward: Forward,
+    minds: [Box<dyn Mind>; AGENT_COUNT],
+    pub(crate) random: [Pcg64Mcg; AGENT_COUNT],
+    pub(crate) state: State,
+    cache: SolverCache,
+    /// The states after the substeps of the last step.
+    pub(crate) substeps: [State; SUBSTEPS],
+    last_actions: [Option<Action>; AGENT_COUNT],
+    /// The position at which the first agent's decision has left the original's random numbers, until the
+    /// second decides.
+    led_to: Option<u64>,
+}
+
+/// The states that each agent believes possible, and the entities that it observes.
+pub(crate) type BeliefViews = [(Vec<State>, BodySet); AGENT_COUNT];
+
+impl SimulationRun {
+    pub(crate) fn new(
+        observed: &ObservedEvent,
+        hypothesis: &Hypothesis,
+        agents: ImaginedAgents,
+        seed: u64,
+        state: State,
+        memo: Option<&SearchMemo>,
+    ) -> Result<Self, PomcpError> {
+        let scene = hypothesis.scene(observed);
+        let physics = scene.physics();
+        let forward = Forward::new(&physics);
+        let mind = |agent| match memo {
+            Some(memo) => mind_sharing(&scene, agent, &agents.minds, memo),
+            None => mind(&scene, agent, &agents.minds),
+        };
+        let minds = [mind(AgentId::ZERO)?, mind(AgentId::ONE)?];
+        let random = AgentId::ALL.map(|agent| random::stream(seed, Purpose::Search, agent.number().into()));
+        let cache = forward.fresh_cache(&state);
+        let layout = scene.layout;
+        let last_actions = [None; AGENT_COUNT];
+        let recorder = agents.recorder();
+        let shares_random = agents.minds.has_original_random();
+        let substeps = [state; SUBSTEPS];
+        let bodies = physics.agents;
+        Ok(Self {
+            layout,
+            recorder,
+            bodies,
+            shares_random,
+            forward,
+            minds,
+            random,
+            state,
+            cache,
+            substeps,
+            last_actions,
+            led_to: None,
+        })
+    }
+
+    /// Sets the world to a state that both agents' actions have led to, if they have acted.
+    pub(crate) fn set_state(&mut self, state: State, last_actions: Option<&[Action; AGENT_COUNT]>) {
+        self.state = state;
+        self.last_actions = last_actions.map_or([None; AGENT_COUNT], |actions| actions.map(Some));
+        self.cache = self.forward.fresh_cache(&state);
+    }
+
+    /// Both decide and act: the mean positions of all bodies over the step, and their actions.
+    pub(crate) fn step(
+        &mut self,
+        outlooks: &BeliefViews,
+    ) -> Result<([Vec2; MAX_ENTITIES], [Action; AGENT_COUNT]), PomcpError> {
+        let mut actions = [Action::NoForce; AGENT_COUNT];
+        for (agent, belief_view) in AgentId::ALL.into_iter().zip(outlooks) {
+            (actions[agent], _) = self.decide(agent, belief_view)?;
+        }
+        Ok((self.act(actions), actions))
+    }
+
+    /// One agent decides: what it does, and why.
+    pub(crate) fn decide(
+        &mut self,
+        agent: AgentId,
+        (particles, observed): &(Vec<State>, BodySet),
+    ) -> Result<(Action, Thought), PomcpError> {
+        let belief_view =
+            BeliefView { particles, observed: *observed, last_action: self.last_actions[agent] };
+        // The original's random numbers go on from the first agent's search to the second's.
+        if let (AgentId::ONE, Some(position)) = (agent, self.led_to.take()) {
+            self.minds[agent].begin_at(position);
+        }
+        let (action, thought) = self.minds[agent].decide(belief_view, &mut self.random[agent])?;
+        if agent == AgentId::ZERO {
+            self.led_to = Some(self.minds[agent].stream_position());
+        }
+        Ok((self.recorder.carried_out(action, &self.bodies[agent], self.layout), thought))
+    }
+
+    /// Both act: the mean positions of all bodies over the step.
+    pub(crate) fn act(&mut self, actions: [Action; AGENT_COUNT]) -> [Vec2; MAX_ENTITIES] {
+        self.last_actions = actions.map(Some);
+        self.substeps = self.forward.step_warm(&mut self.state, &mut self.cache, actions);
+        let substeps = &self.substeps;
+        let mean = |entity: usize| {
+            let sum = substeps.iter().fold(Vec2::ZERO, |sum, substep| sum + substep.bodies[entity].position);
+            sum / SUBSTEPS as f32
+        };
+        core::array::from_fn(mean)
+    }
+}
