@@ -130,7 +130,7 @@ fn rubbish_is_refused_in_one_sentence() {
         ),
         (
             &["--folds", "3", "--parameters", "beyond.json"],
-            "beyond.json: field `momentum_prior` is 1000000000, but must be from",
+            "beyond.json: field `momentum_prior` must be above 0, to 1000, not 1000000000",
         ),
         (&["--folds", "3", "--generated", "missing.json"], "missing.json"),
     ];
