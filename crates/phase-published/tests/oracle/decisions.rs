@@ -8,8 +8,8 @@ use phase_model::{
 use phase_published::{Mind, PublishedParameters, RandomNumbers};
 use serde_json::Value;
 
-/// Least share of the searches that choose as the original. The others part where rounding decides a close
-/// comparison or how bodies collide: from there on a search draws other numbers.
+/// Least share of the searches that choose as the original. Why the others part is not known; rounding
+/// explains some.
 const SAME_ACTION: f64 = 0.86;
 
 fn particles(of: &Value) -> Option<Vec<State>> {
