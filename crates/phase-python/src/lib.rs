@@ -10,7 +10,7 @@
 //! longer vector than most learners need.
 //!
 //! The interpreter's lock is released in every call that computes. Everything can be copied and pickled: what
-//! changes keeps its past and repeats it ([`worlds`], [`mind`], [`observer`]).
+//! changes keeps its past and repeats it (`worlds`, `mind`, `observer`).
 
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
