@@ -100,7 +100,7 @@ fn a_fresh_grip_is_a_weld() {
     assert!((imagined.position(BALL) - real.position(BALL)).length() < 1e-5);
 }
 
-/// What is within reach is judged by where objects are said to be, and pulled from where it is.
+/// An object is in reach if its stated place is, and is then pulled from its own place.
 #[test]
 fn reach_is_measured_to_stated_places() {
     let imagined = Imagined::new(&physics());

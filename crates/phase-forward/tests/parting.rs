@@ -58,7 +58,7 @@ fn deepest(physics: &PhysicsConfig, state: &State) -> (f32, String) {
     deepest
 }
 
-/// Where a body begins: at a place that others share, on a wall at a share of its length, or anywhere.
+/// A start position: a place that several bodies share, a point on a wall at a share of its length, or any.
 #[derive(Clone, Copy, Debug)]
 enum Place {
     Shared,

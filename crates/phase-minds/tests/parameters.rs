@@ -117,7 +117,7 @@ fn the_work_of_a_decision_has_a_bound() {
     assert!(more.contains("must be 0 to 100000000, not 1000000000"), "{more}");
 }
 
-/// What documents say of the range of a parameter is what holds.
+/// The ranges of parameters in the documents are those that are enforced.
 #[test]
 fn documents_state_the_ranges() {
     let documents = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/explanation");

@@ -63,6 +63,22 @@ impl Action {
         Self::Detach,
     ];
 
+    /// The action that does in a reflected arena what this one does: left and right change places.
+    #[must_use]
+    pub const fn mirrored(self) -> Self {
+        match self {
+            Self::TurnLeft => Self::TurnRight,
+            Self::TurnRight => Self::TurnLeft,
+            Self::Left => Self::Right,
+            Self::Right => Self::Left,
+            Self::UpLeft => Self::UpRight,
+            Self::UpRight => Self::UpLeft,
+            Self::DownLeft => Self::DownRight,
+            Self::DownRight => Self::DownLeft,
+            Self::Up | Self::Down | Self::Stop | Self::NoForce | Self::Attach | Self::Detach => self,
+        }
+    }
+
     /// Position in [`Action::ALL`].
     #[must_use]
     pub const fn index(self) -> usize {

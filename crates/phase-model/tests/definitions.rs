@@ -52,7 +52,7 @@ proptest! {
         }
     }
 
-    /// What any distance of edits has to keep; two edits are at most two apart.
+    /// The edit distance is a metric, and two texts that are two edits apart have a distance of at most two.
     #[test]
     fn edits_are_counted_as_a_distance(a in "[abc]{0,8}", b in "[abc]{0,8}", at in 0..8_usize) {
         let distance = edit_distance(&a, &b);
@@ -104,4 +104,15 @@ fn actions_have_their_names_and_places_in_files() {
     }
     assert_eq!(Action::TurnLeft.turn(), -Action::TurnRight.turn());
     assert_eq!(Entity::ALL[AgentId::ONE.index()], Entity::Agent(AgentId::ONE));
+}
+
+/// A reflection changes nothing when it is done twice, and exchanges the names of left and right.
+#[test]
+fn a_mirrored_action_exchanges_left_and_right() {
+    for action in Action::ALL {
+        assert_eq!(action.mirrored().mirrored(), action);
+        let words = format!("{action:?}");
+        let swapped = words.replace("Left", "\0").replace("Right", "Left").replace('\0', "Right");
+        assert_eq!(format!("{:?}", action.mirrored()), swapped);
+    }
 }

@@ -5,12 +5,12 @@
 use phase_planner::search::{SymbolicProblem, solve};
 use std::fmt;
 
-/// What a block stands on: another block, or the table (`None`). One entry a block.
+/// The support of each block: another block, or the table (`None`).
 type Towers = Vec<Option<usize>>;
 
 /// Towers to be built by a gripper that lifts one block at a time.
 struct Blocks {
-    /// What some blocks have to stand on at the end.
+    /// The supports that some blocks must have at the end.
     goal: Vec<(usize, Option<usize>)>,
 }
 

@@ -147,7 +147,7 @@ impl Mind {
         }
         // The original thinks in the layout before reflection.
         let actions: Vec<Action> = match layout.flip() {
-            Some(_) => actions.iter().map(|&action| mirrored(action)).collect(),
+            Some(_) => actions.iter().map(|&action| action.mirrored()).collect(),
             None => actions.to_vec(),
         };
         let parameters = &self.parameters;
@@ -211,21 +211,6 @@ fn add(evaluation: &mut ActionEvaluation, visits: u32, value: f64) {
     evaluation.visits += visits;
     if evaluation.visits > 0 {
         evaluation.value = sum / f64::from(evaluation.visits);
-    }
-}
-
-/// The action that does in a reflected world what this one does.
-const fn mirrored(action: Action) -> Action {
-    match action {
-        Action::TurnLeft => Action::TurnRight,
-        Action::TurnRight => Action::TurnLeft,
-        Action::Left => Action::Right,
-        Action::Right => Action::Left,
-        Action::UpLeft => Action::UpRight,
-        Action::UpRight => Action::UpLeft,
-        Action::DownLeft => Action::DownRight,
-        Action::DownRight => Action::DownLeft,
-        action => action,
     }
 }
 

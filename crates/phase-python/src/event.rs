@@ -23,9 +23,11 @@ impl Event {
     /// the rule if it has none, or several.
     #[new]
     fn from_json(py: Python<'_>, text: &str) -> PyResult<Self> {
-        let mut read = Self::list_from_json(py, text)?;
-        let event = read.pop().filter(|_| read.is_empty());
-        event.ok_or_else(|| raise(format!("one event is expected, not {}", read.len())))
+        let read = Self::list_from_json(py, text)?;
+        let [event]: [Self; 1] = read
+            .try_into()
+            .map_err(|read: Vec<Self>| raise(format!("one event is expected, not {}", read.len())))?;
+        Ok(event)
     }
 
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, (String,))> {

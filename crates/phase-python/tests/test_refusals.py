@@ -1,5 +1,6 @@
 """What is invalid raises PhaseError, whatever it is; numpy's numbers are numbers, and True is none."""
 
+import json
 import os
 import threading
 
@@ -251,3 +252,12 @@ def test_a_policy_of_ones_own_is_checked(scene):
         for use in (lambda env=env: env.step(0), lambda vector=vector: vector.step(np.zeros(2, dtype=int))):
             with pytest.raises(phase.PhaseError, match="action"):
                 use()
+
+
+def test_one_native_event_is_read_from_a_document_of_one(scene):
+    """The sentence says how many events there are."""
+    event = phase.simulate(scene, seed=1, max_steps=3, parameters=QUICK)
+    document = json.loads(event.to_json())
+    document["events"].append({**document["events"][0], "id": "another"})
+    with pytest.raises(phase.PhaseError, match="one event is expected, not 2"):
+        type(event.native)(json.dumps(document))

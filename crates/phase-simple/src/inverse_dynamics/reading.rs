@@ -107,7 +107,7 @@ impl Reading {
 
     /// An action of this reading as it was observed, and the reverse.
     pub(super) const fn observed_action(&self, action: Action) -> Action {
-        if self.flip.is_some() { mirrored_action(action) } else { action }
+        if self.flip.is_some() { action.mirrored() } else { action }
     }
 }
 
@@ -124,20 +124,4 @@ fn mirrored_grip(grip: Grip) -> Grip {
         Side::Head | Side::Tail => grip.side,
     };
     Grip { side, relative_angle: -grip.relative_angle, ..grip }
-}
-
-const fn mirrored_action(action: Action) -> Action {
-    match action {
-        Action::TurnLeft => Action::TurnRight,
-        Action::TurnRight => Action::TurnLeft,
-        Action::Left => Action::Right,
-        Action::Right => Action::Left,
-        Action::UpLeft => Action::UpRight,
-        Action::UpRight => Action::UpLeft,
-        Action::DownLeft => Action::DownRight,
-        Action::DownRight => Action::DownLeft,
-        Action::Up | Action::Down | Action::Stop | Action::NoForce | Action::Attach | Action::Detach => {
-            action
-        }
-    }
 }

@@ -138,7 +138,7 @@ mod tests {
     use phase_model::random::{Pcg64Mcg, Purpose, stream};
     use serde_json::{Value, json};
 
-    /// Does something a thousand times, with other random numbers each time.
+    /// Repeats a check a thousand times, each time with an independent random stream.
     fn often(mut something: impl FnMut(&mut Pcg64Mcg)) {
         (0..1000).for_each(|number| something(&mut stream(1, Purpose::Event, number)));
     }
