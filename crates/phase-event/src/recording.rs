@@ -1,7 +1,7 @@
 //! One event of a `phase-events/1` file, in memory.
 
 use crate::{Event, ObservedError, ObservedEvent, Trajectory};
-use phase_model::{AGENT_COUNT, Action, Relation, Scene};
+use phase_model::{AGENT_COUNT, Action, Relation, Scene, State};
 use serde::Serialize;
 use serde_json::Value;
 
@@ -88,6 +88,16 @@ impl Recording {
             recovered_actions: None,
             seed: None,
             simulation: Some(SimulationRecord { event, generator, settings }),
+        }
+    }
+
+    /// The state of every frame of the event's video: the initial state, then five states a step. Those of a
+    /// simulated event are exact; of a measured one, which has rows only, bodies go straight from row to row.
+    #[must_use]
+    pub fn frames(&self) -> Box<dyn Iterator<Item = State> + '_> {
+        match &self.simulation {
+            Some(simulation) => Box::new(simulation.event.frames().copied()),
+            None => Box::new(self.trajectory.interpolated()),
         }
     }
 

@@ -1,7 +1,7 @@
 //! Trajectories of all entities, step by step.
 
 use crate::{Event, mean_state};
-use phase_model::{AGENT_COUNT, Body, State, Vec2};
+use phase_model::{AGENT_COUNT, Body, State, Vec2, arena::SUBSTEPS};
 
 /// Names of the columns of a [`Row`].
 pub const COLUMNS: [&str; 5] = ["x", "y", "vx", "vy", "angle"];
@@ -65,6 +65,27 @@ impl Trajectory {
             *body = body_of(rows.get(t)?);
         }
         Some(state)
+    }
+
+    /// Five states a step, beside the initial one: the bodies go straight from row to row.
+    pub(crate) fn interpolated(&self) -> impl Iterator<Item = State> + '_ {
+        let between = |rows: &[Row], t: usize, share: f32| -> Row {
+            core::array::from_fn(|column| {
+                rows[t - 1][column] + share * (rows[t][column] - rows[t - 1][column])
+            })
+        };
+        let moment = move |t: usize, substep: usize| {
+            let share = substep as f32 / SUBSTEPS as f32;
+            let row = |rows: &Vec<Row>| vec![between(rows, t, share)];
+            let moment = Self {
+                agents: self.agents.each_ref().map(row),
+                objects: self.objects.iter().map(row).collect(),
+            };
+            moment.state(0)
+        };
+        let later = (1..=self.steps())
+            .flat_map(move |t| (1..=SUBSTEPS).filter_map(move |substep| moment(t, substep)));
+        self.state(0).into_iter().chain(later)
     }
 }
 

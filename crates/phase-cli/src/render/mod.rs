@@ -5,9 +5,9 @@ mod watch;
 
 use crate::{context::Context, error::CliError, interrupt};
 use options::{Belief, Render};
-use phase_event::{Recording, Row, SimulationRecord, Trajectory};
+use phase_event::{Recording, SimulationRecord};
 use phase_files::{WriteError, atomic, serialize_told};
-use phase_model::{AgentId, State, arena::SUBSTEPS};
+use phase_model::{AgentId, arena::SUBSTEPS};
 use phase_render::Palette;
 use phase_runs::{
     captions,
@@ -217,10 +217,6 @@ fn render(
         }
         (Some(_), None) => return Err(unsimulated(arguments, id)),
     };
-    let states: Box<dyn Iterator<Item = State>> = match &recording.simulation {
-        Some(simulation) => Box::new(simulation.event.frames().copied()),
-        None => Box::new(interpolated(&recording.trajectory)),
-    };
     // The decision that chose a step is shown while the step lasts.
     let minds_at = |frame: usize| {
         let step = frame.saturating_sub(1) / SUBSTEPS;
@@ -240,7 +236,7 @@ fn render(
         .collect();
     // The observer sees a step when it is over.
     let observer_at = |frame: usize| observers.get(frame / SUBSTEPS).or(observers.last());
-    let items = states.enumerate().map(|(k, state)| RenderedState {
+    let items = recording.frames().enumerate().map(|(k, state)| RenderedState {
         state,
         minds: minds_at(k),
         observer: observer_at(k),
@@ -299,23 +295,4 @@ fn minds(
         }
     };
     steps.zip(snapshots).map(mind).collect()
-}
-
-/// Five frames for each step of a recording that has rows only: the bodies go straight from row to row.
-fn interpolated(trajectory: &Trajectory) -> impl Iterator<Item = State> + '_ {
-    let between = |rows: &[Row], t: usize, share: f32| -> Row {
-        core::array::from_fn(|column| rows[t - 1][column] + share * (rows[t][column] - rows[t - 1][column]))
-    };
-    let moment = move |t: usize, substep: usize| {
-        let share = substep as f32 / SUBSTEPS as f32;
-        let row = |rows: &Vec<Row>| vec![between(rows, t, share)];
-        let moment = Trajectory {
-            agents: trajectory.agents.each_ref().map(row),
-            objects: trajectory.objects.iter().map(row).collect(),
-        };
-        moment.state(0)
-    };
-    let later = (1..=trajectory.steps())
-        .flat_map(move |t| (1..=SUBSTEPS).filter_map(move |substep| moment(t, substep)));
-    trajectory.state(0).into_iter().chain(later)
 }
