@@ -13,13 +13,11 @@ pub const PACKAGES: [(&str, &[(&str, &str)]); 4] = [
             ("check-behaviour", "Measure how reliably agents show the intended behaviour"),
             ("check-minds", "Compare minds with the agents of recordings or events whose labels are known"),
             ("check-physics", "Compare an engine of the physics with recorded motion"),
-            ("draw-behaviour", "Draw scenes for check-behaviour from the sampler"),
             (
                 "fit-forecast",
                 "Fit how SIMPLE combines simulated futures to events whose continuation is known",
             ),
             ("fit-inference", "Fit how SIMPLE weighs its evidence to events whose labels are known"),
-            ("fit-minds", "Fit the parameters of the minds to recordings or events whose labels are known"),
             ("fit-reports", "Fit how people report what they saw to raters of recordings"),
         ],
     ),
@@ -45,8 +43,8 @@ pub const PACKAGES: [(&str, &[(&str, &str)]); 4] = [
         &[("golden", "Run the golden tests of all crates, or rewrite the values that they compare with")],
     ),
 ];
-/// Packages that have xtask's feature `networks`, too.
-const WITH_NETWORKS: [&str; 2] = ["phase-lab", "phase-torture"];
+/// The package that has xtask's feature `networks`, too.
+const WITH_NETWORKS: &str = "phase-torture";
 /// Name of the words that are handed on.
 const WORDS: &str = "words";
 
@@ -69,7 +67,7 @@ impl Elsewhere {
         let mut cargo = process::Command::new(env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
         cargo.args(["run", "--package", self.package, "--manifest-path"]).arg(root().join("Cargo.toml"));
         cargo.args((!cfg!(debug_assertions)).then_some("--release"));
-        if cfg!(feature = "networks") && WITH_NETWORKS.contains(&self.package) {
+        if cfg!(feature = "networks") && self.package == WITH_NETWORKS {
             cargo.args(["--features", "networks"]);
         }
         cargo.args(["--", self.command]).args(&self.words);

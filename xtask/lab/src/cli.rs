@@ -4,12 +4,10 @@ use crate::{
     check_behaviour::{self, options::CheckBehaviour},
     check_minds::{self, options::CheckMinds},
     check_physics::{self, options::CheckPhysics},
-    draw_behaviour::{self, DrawBehaviour},
     error::LabError,
     fit_events::FitEvents,
     fit_forecast,
     fit_inference::{self, options::FitInference},
-    fit_minds::{self, options::FitMinds},
     fit_reports::{self, options::FitReports},
 };
 use clap::Subcommand;
@@ -28,12 +26,8 @@ pub enum Command {
     CheckPhysics(CheckPhysics),
     /// Measure how reliably agents show the intended behaviour
     CheckBehaviour(CheckBehaviour),
-    /// Draw scenes for check-behaviour from the sampler
-    DrawBehaviour(DrawBehaviour),
     /// Compare minds with the agents of recordings or events whose labels are known
     CheckMinds(CheckMinds),
-    /// Fit the parameters of the minds to recordings or events whose labels are known
-    FitMinds(FitMinds),
     /// Fit how SIMPLE weighs its evidence to events whose labels are known
     FitInference(FitInference),
     /// Fit how SIMPLE combines simulated futures to events whose continuation is known
@@ -45,16 +39,14 @@ pub enum Command {
 impl Interface for Command {
     type Error = LabError;
 
-    const ABOUT: &'static str = "Fits and checks of minds, inference, behaviour and physics";
+    const ABOUT: &'static str = "Fits of inference, and checks of minds, behaviour and physics";
 
     fn run(&self, context: &Context) -> Result<(), LabError> {
         match self {
             Self::CheckPhysics(arguments) => check_physics::run(arguments, context),
             Self::CheckBehaviour(arguments) => check_behaviour::run(arguments, context),
-            Self::DrawBehaviour(arguments) => draw_behaviour::run(arguments),
             Self::CheckMinds(arguments) => check_minds::run(arguments, context),
             Self::FitInference(arguments) => fit_inference::run(arguments, context),
-            Self::FitMinds(arguments) => fit_minds::run(arguments, context),
             Self::FitForecast(arguments) => fit_forecast::run(arguments, context),
             Self::FitReports(arguments) => fit_reports::run(arguments),
         }

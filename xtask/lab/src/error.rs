@@ -1,6 +1,5 @@
 //! Every way in which a command of the lab can fail, and its exit code.
 
-use crate::draw_behaviour::DrawError;
 use phase_calibration::ReadError;
 use phase_cli::{error::CliError, program::Failure};
 use phase_runs::error::RunError;
@@ -27,9 +26,6 @@ pub enum LabError {
     /// The bundled intent network cannot be read.
     #[error("the bundled intent network: {0}")]
     IntentNetwork(#[from] phase_simple::intent_network::IntentNetworkError),
-    /// A scene cannot be drawn.
-    #[error(transparent)]
-    Draw(#[from] DrawError),
     /// The user interrupted a command that keeps nothing of what it has done.
     #[error("interrupted; nothing is written")]
     Interrupted,
@@ -42,7 +38,7 @@ impl Failure for LabError {
             Self::Run(error) => error.exit_code(),
             Self::Calibration { .. } => 2,
             Self::Interrupted => 130,
-            Self::Draw(_) | Self::IntentNetwork(_) => 1,
+            Self::IntentNetwork(_) => 1,
         }
     }
 }

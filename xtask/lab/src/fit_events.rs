@@ -64,7 +64,7 @@ impl FitEvents {
     /// # Errors
     /// If it has none, or they cannot be read.
     pub(crate) fn read(&self, file: &Path, context: &Context) -> Result<Vec<Recording>, RunError> {
-        let mut recordings = check_minds::recordings(file, None, context)?;
+        let mut recordings = check_minds::recordings(file, &[], None, context)?;
         recordings.truncate(self.limit.map_or(usize::MAX, |limit| limit as usize));
         Ok(recordings)
     }

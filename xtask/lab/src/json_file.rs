@@ -1,17 +1,20 @@
 //! The file that an option such as `--json FILE` writes.
 
+use crate::error::LabError;
+use phase_cli::output::{json_text, print_result};
 use phase_files::atomic;
 use phase_runs::error::RunError;
+use serde::Serialize;
 use std::path::Path;
 
 /// The name that means stdout where a file may be named.
-pub const STDOUT: &str = "-";
+const STDOUT: &str = "-";
 
 /// Checks that `option` can write to `out` without overwriting one of the inputs.
 ///
 /// # Errors
 /// [`RunError::Usage`].
-pub fn check<'a>(
+pub(crate) fn check<'a>(
     option: &str,
     out: &Path,
     mut inputs: impl Iterator<Item = &'a Path>,
@@ -40,4 +43,16 @@ pub fn check<'a>(
 /// [`RunError::Output`].
 pub(crate) fn write(out: Option<&Path>, text: &str) -> Result<(), RunError> {
     out.map_or(Ok(()), |out| atomic::write(out, text.as_bytes()).map_err(RunError::Output))
+}
+
+/// Prints a report as its table; as JSON to `out` too, or alone where that is stdout.
+pub(crate) fn print(out: Option<&Path>, report: &impl Serialize, table: &str) -> Result<(), LabError> {
+    if let Some(out) = out {
+        let text = json_text(report, "the report")?;
+        if out == Path::new(STDOUT) {
+            return Ok(print_result(text.trim_end())?);
+        }
+        write(Some(out), &text)?;
+    }
+    Ok(print_result(table.trim_end())?)
 }

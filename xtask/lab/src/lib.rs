@@ -1,13 +1,11 @@
-//! Fits of minds and inference to recordings and events whose labels are known, and checks of minds,
+//! Fits of inference to recordings and events whose labels are known, and checks of minds,
 //! behaviour and physics: commands of `cargo xtask`.
 //!
 //! - `check-behaviour` shows how reliably agents do what they are planned to do,
 //! - `check-minds` compares minds with recorded agents,
 //! - `check-physics` compares an engine with recorded motion,
-//! - `draw-behaviour` draws scenes for `check-behaviour` from the sampler,
 //! - `fit-forecast` fits how SIMPLE combines simulated futures,
 //! - `fit-inference` fits how SIMPLE weighs its evidence,
-//! - `fit-minds` fits the parameters of minds to recorded agents,
 //! - `fit-reports` fits how people report what they saw.
 //!
 //! Key design decision: a number that was fitted can be fitted again, by a command that anyone can run. The
@@ -21,12 +19,12 @@ pub mod check_behaviour;
 pub mod check_minds;
 pub mod check_physics;
 pub mod cli;
-pub mod draw_behaviour;
 pub mod error;
 mod evaluations_file;
 pub mod fit_events;
 pub mod fit_forecast;
 pub mod fit_inference;
-pub mod fit_minds;
 pub mod fit_reports;
-pub mod json_file;
+mod folds;
+mod json_file;
+mod recognition;

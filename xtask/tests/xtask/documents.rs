@@ -102,7 +102,7 @@ fn examples_in_documents_exist() {
 fn a_command_that_does_not_exist_is_noticed() {
     let wrong = |line: &str| commands(line).iter().filter_map(|words| complaint(words)).count();
     assert_eq!(wrong("cargo xtask tidy && A=1 phase simulate --events a.json --out b # the rest"), 0);
-    assert_eq!(wrong("cargo xtask tidy --fast; cargo xtask fit-minds --fast"), 2);
+    assert_eq!(wrong("cargo xtask tidy --fast; cargo xtask fit-reports --fast"), 2);
     assert_eq!(wrong("cd x && phase no-such-command; phase simulate --evnets a.json"), 2);
 }
 

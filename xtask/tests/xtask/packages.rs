@@ -46,9 +46,9 @@ fn words_reach_the_package_as_they_are_and_its_exit_code_comes_back() {
     let manifest = Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("a workspace").join("Cargo.toml");
     for (words, package, handed_on) in [
         (
-            &["fit-minds", "--events", "a b", "--help"][..],
+            &["fit-reports", "--events", "a b", "--help"][..],
             "phase-lab",
-            &["fit-minds", "--events", "a b", "--help"][..],
+            &["fit-reports", "--events", "a b", "--help"][..],
         ),
         (&["help", "torture"], "phase-torture", &["torture", "--help"]),
         (&["-q", "fuzz", "--seconds", "1"], "phase-fuzz", &["fuzz", "--seconds", "1", "--quiet"]),

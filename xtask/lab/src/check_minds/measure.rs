@@ -1,6 +1,6 @@
 //! Everything that is measured about one event.
 
-use super::{motion::Motion, recognition::Recognition, role::Role, truth};
+use super::{motion::Motion, truth};
 use core::ops::ControlFlow;
 use cpu_time::ThreadTime;
 use phase_cli::progress::Progress;
@@ -10,10 +10,8 @@ use phase_model::{AGENT_COUNT, AgentId, EventKind};
 use phase_runs::{engine, error::RunError, interrupt::requested};
 use phase_sim::SimulationSettings;
 use phase_simple::{
-    Algorithm, Cues, ImaginedAgents, InferenceSettings, InversePlanningSettings, PreparedEvent,
-    UniformStrength,
+    ImaginedAgents, InversePlanningSettings, PreparedEvent,
     choice::{self, Chance},
-    infer,
 };
 
 /// Steps after which a simulation whose straying is measured is set to the observed state.
@@ -22,10 +20,8 @@ const RESYNC_INTERVAL: usize = 10;
 /// Measurements that are wanted.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Measurement {
-    /// SIMPLE, whose minds also decide at observed states.
-    pub(super) inference: InferenceSettings,
-    /// Whether SIMPLE's posterior is wanted.
-    pub(super) posterior: bool,
+    /// The minds that decide at observed states.
+    pub(super) observed: ImaginedAgents,
     /// The minds of the open loop.
     pub(super) open_loop: ImaginedAgents,
     /// Simulations of every scene in the open loop.
@@ -41,8 +37,6 @@ pub(super) struct MeasuredEvent {
     pub(super) id: String,
     /// Its kind.
     pub(super) kind: EventKind,
-    /// The roles of its agents.
-    pub(super) roles: [Role; AGENT_COUNT],
     /// The chance of what each agent did, by step.
     pub(super) chances: [Vec<Chance>; AGENT_COUNT],
     /// Whether inverse dynamics explains each step, so that it is known what was done.
@@ -52,8 +46,6 @@ pub(super) struct MeasuredEvent {
     pub(super) deviations: [Vec<f64>; AGENT_COUNT],
     /// Deviation of simulations in which both decide, by step (u).
     pub(super) joint_deviations: Vec<f64>,
-    /// SIMPLE's answer, if wanted.
-    pub(super) recognition: Option<Recognition>,
     /// Motion of the agents, as recorded.
     pub(super) recorded: Motion,
     /// Simulations in the open loop, by seed.
@@ -72,8 +64,7 @@ pub(super) struct Simulated {
 impl Measurement {
     /// Approximate number of units of progress of an event of so many steps.
     pub(super) fn units(&self, steps: usize) -> usize {
-        let posterior = if self.posterior { self.inference.ticks() } else { 0 };
-        posterior + self.open_loop_seeds as usize * steps
+        self.open_loop_seeds as usize * steps
     }
 
     /// Measures an event; `None` if it was interrupted.
@@ -93,8 +84,8 @@ impl Measurement {
         let scene = &recording.scene;
         let truth = truth(scene);
         let observed = recording.observed().map_err(|error| failed(MethodError::new(error)))?;
-        let prepared = PreparedEvent::new(&observed, self.inference.agents, self.seed);
-        let likelihoods = choice::action_likelihoods(&prepared, self.tolerance());
+        let prepared = PreparedEvent::new(&observed, self.observed, self.seed);
+        let likelihoods = choice::action_likelihoods(&prepared, InversePlanningSettings::default().tolerance);
         let chances = |agent| {
             let chances = choice::chances(&prepared, &likelihoods, &truth, agent);
             chances.map_err(|error| failed(MethodError::new(error)))
@@ -115,25 +106,14 @@ impl Measurement {
             let Some(run) = self.open_loop(recording, seed, &mut tick)? else { return Ok(None) };
             simulated.push(run);
         }
-        let recognition = if self.posterior {
-            let cues = Cues { strengths: &UniformStrength, guide: None };
-            let inference = infer(&prepared, &cues, self.seed, &self.inference, &mut tick)
-                .map_err(|error| failed(MethodError::new(error)))?;
-            let Some(inference) = inference else { return Ok(None) };
-            Some(Recognition::of(&inference.posterior, &truth))
-        } else {
-            None
-        };
         progress.event(units, id);
         Ok(Some(MeasuredEvent {
             id: id.clone(),
             kind: scene.kind,
-            roles: AgentId::ALL.map(|agent| Role::of(scene, agent)),
             chances,
             explained: prepared.motion().explained().collect(),
             deviations,
             joint_deviations,
-            recognition,
             recorded: Motion::of(scene, &recorded_track),
             simulated,
         }))
@@ -162,13 +142,5 @@ impl Measurement {
             motion: Motion::of(&recording.scene, &Track::of_event(&event)),
             cpu_seconds,
         }))
-    }
-
-    /// Scale of the residuals of inverse dynamics (u): SIMPLE's.
-    fn tolerance(&self) -> f64 {
-        match self.inference.algorithm {
-            Algorithm::InversePlanning(settings) => settings.tolerance,
-            Algorithm::Chains(_) => InversePlanningSettings::default().tolerance,
-        }
     }
 }

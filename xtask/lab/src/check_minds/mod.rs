@@ -5,26 +5,19 @@ mod measure;
 mod motion;
 pub mod options;
 pub(crate) mod parameters;
-pub(crate) mod recognition;
 mod report;
-mod role;
 mod table;
 
 use crate::{error::LabError, json_file};
 use measure::Measurement;
 use options::CheckMinds;
-use phase_cli::{
-    context::Context,
-    interrupt,
-    output::{json_text, print_result},
-};
+use phase_cli::{context::Context, interrupt};
 use phase_eval::goals::canonical;
 use phase_event::Recording;
-use phase_files::atomic;
 use phase_minds::{MindKind, MindParameters, PublishedParameters};
 use phase_model::{AgentId, Attitude, EventKind, Goal, Scene};
 use phase_runs::{engine::GENERATOR, error::RunError, parallel::make_all, source::EventInput, words};
-use phase_simple::{Hypothesis, ImaginedAgents, InferenceSettings, Intent};
+use phase_simple::{Hypothesis, ImaginedAgents, Intent};
 use report::MindsReport;
 use serde_json::{Value, json};
 use std::{borrow::Cow, path::Path};
@@ -47,8 +40,7 @@ pub fn run(arguments: &CheckMinds, context: &Context) -> Result<(), LabError> {
         json_file::check("--json", out, inputs.into_iter().flatten().map(|file| file.as_path()))?;
     }
     let parameters = arguments.parameters.as_deref().map(parameters::read).transpose()?;
-    let mut recordings = recordings(&arguments.events, arguments.only, context)?;
-    retain(&mut recordings, &arguments.ids, &arguments.events)?;
+    let recordings = recordings(&arguments.events, &arguments.ids, arguments.only, context)?;
     let plan = plan(arguments, agents(arguments, parameters, &recordings)?)?;
     interrupt::listen();
     let units = recordings.iter().map(|recording| plan.units(recording.trajectory.steps())).max();
@@ -59,27 +51,7 @@ pub fn run(arguments: &CheckMinds, context: &Context) -> Result<(), LabError> {
     drop(progress);
     let Some(events) = events else { return Err(LabError::Interrupted) };
     let report = MindsReport::of(&events, description(arguments, &plan));
-    if let Some(out) = &arguments.json {
-        let text = json_text(&report, "the report")?;
-        if out == Path::new(json_file::STDOUT) {
-            print_result(text.trim_end())?;
-            return Ok(());
-        }
-        atomic::write(out, text.as_bytes()).map_err(RunError::Output)?;
-    }
-    print_result(table::print(&report).trim_end())?;
-    Ok(())
-}
-
-/// Keeps the events with these ids, or all of them if there are none.
-fn retain(recordings: &mut Vec<Recording>, ids: &[String], file: &Path) -> Result<(), RunError> {
-    for id in ids {
-        if !recordings.iter().any(|recording| recording.id == *id) {
-            return Err(RunError::Usage(format!("{}: has no event {id}", file.display())));
-        }
-    }
-    recordings.retain(|recording| ids.is_empty() || ids.contains(&recording.id));
-    Ok(())
+    json_file::print(arguments.json.as_deref(), &report, &table::print(&report))
 }
 
 /// The agents that were asked for. Those of recordings with published minds have bodies that turn one way and
@@ -122,24 +94,25 @@ fn plan(arguments: &CheckMinds, agents: ImaginedAgents) -> Result<Measurement, R
     };
     let open_loop = agents.minds.with_simulations(arguments.simulations_open_loop as usize);
     Ok(Measurement {
-        inference: InferenceSettings::default().with_agents(agents.with_minds(at_states)),
-        posterior: !arguments.no_posterior,
+        observed: agents.with_minds(at_states),
         open_loop: agents.with_minds(open_loop),
         open_loop_seeds: arguments.open_loop_seeds.into(),
         seed: arguments.seed,
     })
 }
 
-/// The events of a file or folder, of one kind only if one is given: at least one, and each with a step.
+/// The events of a file or folder with these ids, if there are any, and of one kind only if one is given: at
+/// least one event, and each with a step.
 ///
 /// # Errors
 /// If there are no such events, or they cannot be read.
 pub(crate) fn recordings(
     file: &Path,
+    ids: &[String],
     only: Option<EventKind>,
     context: &Context,
 ) -> Result<Vec<Recording>, RunError> {
-    let source = EventInput::open(file, &[], context)?;
+    let source = EventInput::open(file, ids, context)?;
     let mut recordings =
         (0..source.len()).map(|k| source.load(k).map(Cow::into_owned)).collect::<Result<Vec<_>, _>>()?;
     if let Some(kind) = only {
@@ -180,7 +153,7 @@ fn description(arguments: &CheckMinds, plan: &Measurement) -> Value {
     json!({
         "command": "check-minds", "generator": GENERATOR, "seed": plan.seed,
         "only": arguments.only.map(EventKind::name), "ids": arguments.ids,
-        "minds": plan.open_loop.minds.kind().name(), "inference": plan.inference, "posterior": plan.posterior,
-        "open_loop": plan.open_loop, "open_loop_seeds": plan.open_loop_seeds,
+        "minds": plan.open_loop.minds.kind().name(), "observed": plan.observed, "open_loop": plan.open_loop,
+        "open_loop_seeds": plan.open_loop_seeds,
     })
 }

@@ -55,22 +55,22 @@ impl Motion {
         self.agents[0].speeds.len()
     }
 
-    /// Length of the paths of these agents together (u).
-    pub(super) fn path(&self, agents: &[AgentId]) -> f32 {
-        agents.iter().map(|&agent| self.agents[agent].path).sum()
+    /// Length of the paths of both agents together (u).
+    pub(super) fn path(&self) -> f32 {
+        self.agents.iter().map(|agent| agent.path).sum()
     }
 
-    /// Share of the steps in which none of these agents moves; `None` without steps.
-    pub(super) fn still_share(&self, agents: &[AgentId]) -> Option<f64> {
-        let still = |step: &usize| agents.iter().all(|&agent| !moves(&self.agents[agent], *step));
+    /// Share of the steps in which nobody moves; `None` without steps.
+    pub(super) fn still_share(&self) -> Option<f64> {
+        let still = |step: &usize| self.agents.iter().all(|agent| !moves(agent, *step));
         let steps = self.steps();
         (steps > 0).then(|| (0..steps).filter(still).count() as f64 / steps as f64)
     }
 
-    /// Mean share of the steps in which these agents touch the other or an object; `None` without steps.
-    pub(super) fn contact_share(&self, agents: &[AgentId]) -> Option<f64> {
+    /// Mean share of the steps in which an agent touches the other or an object; `None` without steps.
+    pub(super) fn contact_share(&self) -> Option<f64> {
         let shares: Option<Vec<f64>> =
-            agents.iter().map(|&agent| self.agents[agent].contact_share().map(f64::from)).collect();
+            self.agents.iter().map(|agent| agent.contact_share().map(f64::from)).collect();
         phase_statistics::mean(&shares?)
     }
 }

@@ -29,8 +29,7 @@ pub struct CheckMinds {
     /// say how many simulations there are
     #[arg(long, value_name = "FILE")]
     pub parameters: Option<PathBuf>,
-    /// POMCP simulations a decision at observed states and within SIMPLE [default: 50, with published minds
-    /// 200]
+    /// POMCP simulations a decision at observed states [default: 50, with published minds 200]
     #[arg(long, value_name = "N", value_parser = value_parser!(u32).range(phase_minds::SIMULATIONS.bounds()))]
     pub simulations: Option<u32>,
     /// Searches of so many simulations a decision at observed states, which only published minds repeat
@@ -44,9 +43,6 @@ pub struct CheckMinds {
     /// Simulations of every scene in the open loop; with 0 that part is left out
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = value_parser!(u16).range(0..=1000))]
     pub open_loop_seeds: u16,
-    /// Leave out SIMPLE's posterior, which takes most of the time
-    #[arg(long)]
-    pub no_posterior: bool,
     /// The seed of all random draws, the same in every event
     #[arg(long, value_name = "N", default_value_t = 1)]
     pub seed: u64,

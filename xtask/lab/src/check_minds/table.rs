@@ -8,8 +8,8 @@ type Column = (&'static str, fn(&MindFigures) -> String);
 /// A row: its name, and its text for each column.
 type Row = (&'static str, Vec<String>);
 
-/// Columns about choices of minds and conclusions of SIMPLE.
-const MINDS: [Column; 14] = [
+/// Columns about choices of minds.
+const MINDS: [Column; 9] = [
     ("events", |it| it.events.to_string()),
     ("decisions", |it| it.decisions.to_string()),
     ("chance", |it| number(it.choice_probability, 3)),
@@ -19,17 +19,6 @@ const MINDS: [Column; 14] = [
     ("chance ex", |it| number(it.explained.choice_probability_explained, 3)),
     ("ll ex", |it| number(it.explained.log_likelihood_per_step_explained, 3)),
     ("stray", |it| beside(it.stray_per_step, it.stray_of_both_per_step, 2)),
-    ("log post", |it| number(it.recognition.log_posterior, 2)),
-    ("relation", |it| number(it.recognition.relation_probability, 2)),
-    ("top-1", |it| number(it.recognition.relation_top1, 2)),
-    ("goals", |it| number(it.recognition.goal_top1, 2)),
-    ("who", |it| {
-        let social = it.recognition.social_agent;
-        social.map_or_else(
-            || "-".into(),
-            |it| format!("{}/{}/{}/{}", it.named, it.likelier, it.wrong_above_90, it.events),
-        )
-    }),
 ];
 
 /// The open loop beside the recordings.
@@ -61,9 +50,7 @@ pub(super) fn print(report: &MindsReport) -> String {
         "minds under the true goals, attitudes and strengths; fitted lapse {:.3}\n\n{}\n\
          chance: of what was done; ll: its log likelihood (nat a step), with the fitted lapse and with .05;\n\
          explained: share of decisions of which inverse dynamics tells what was done; chance ex, ll ex: of these alone;\n\
-         stray: u a step, where one agent decides / both do;\n\
-         log post: ln of SIMPLE's posterior of the truth; relation, top-1: its posterior, share right; goals: share right;\n\
-         who: helper or hinderer named / likelier than the other / the other above .9 / of so many events\n\n\
+         stray: u a step, where one agent decides / both do\n\n\
          the same scenes simulated / recorded\n\n{}\n\
          path, speed: medians (u, u/s); still: share of steps in which nobody moves; contact: share of steps;\n\
          longest still: nobody moves while a positive goal is open (s of video); cpu: seconds for 100 steps\n",
@@ -75,11 +62,8 @@ pub(super) fn print(report: &MindsReport) -> String {
 
 fn table(report: &MindsReport, columns: &[Column]) -> String {
     let row = |(name, figures): &(&'static str, MindFigures)| (*name, cells(figures, columns));
-    let groups: [Vec<Row>; 3] = [
-        vec![("all", cells(&report.overall, columns))],
-        report.kinds.iter().map(row).collect(),
-        report.roles.iter().map(row).collect(),
-    ];
+    let groups: [Vec<Row>; 2] =
+        [vec![("all", cells(&report.overall, columns))], report.kinds.iter().map(row).collect()];
     let widths: Vec<usize> = columns
         .iter()
         .enumerate()
@@ -93,7 +77,7 @@ fn table(report: &MindsReport, columns: &[Column]) -> String {
         format!("{name:<13}{}\n", cells.collect::<String>())
     };
     let mut text = line("", columns.iter().map(|(heading, _)| *heading).collect());
-    for (group, what) in groups.iter().zip(["", "kind", "role"]) {
+    for (group, what) in groups.iter().zip(["", "kind"]) {
         if !what.is_empty() {
             text += &format!("{what}\n");
         }

@@ -10,12 +10,8 @@ use phase_calibration::{
     ColdForward, Engine, Probe, ReadError, Replay, Report, Run, StatelessErrors, WarmForward, WorldEngine,
     horizon_errors, probes_report, replay_reports, run_reports,
 };
-use phase_cli::{
-    context::Context,
-    error::CliError,
-    output::{json_text, print_result},
-};
-use phase_files::{atomic, json};
+use phase_cli::context::Context;
+use phase_files::json;
 use phase_runs::{error::RunError, source::EventInput};
 use serde::Serialize;
 use serde_json::Value;
@@ -62,16 +58,9 @@ pub fn run(arguments: &CheckPhysics, context: &Context) -> Result<(), LabError> 
             (report, targets)
         }
     };
-    if let Some(out) = &arguments.json {
-        let text = to_json(&report, &targets, records.mirrored)?;
-        if out == Path::new(json_file::STDOUT) {
-            print_result(text.trim_end())?;
-            return Ok(());
-        }
-        atomic::write(out, text.as_bytes()).map_err(RunError::Output)?;
-    }
-    print_result(table::print(&report, &targets, records.mirrored).trim_end())?;
-    Ok(())
+    let mirrored_left_out = report.replays.as_ref().map(|_| records.mirrored);
+    let output = Output { report: &report, targets: &targets, mirrored_left_out };
+    json_file::print(arguments.json.as_deref(), &output, &table::print(&report, &targets, records.mirrored))
 }
 
 impl Records {
@@ -135,9 +124,4 @@ struct Output<'a> {
     /// Events with recovered actions that were skipped because they are reflected.
     #[serde(skip_serializing_if = "Option::is_none")]
     mirrored_left_out: Option<usize>,
-}
-
-fn to_json(report: &Report, targets: &[Target], mirrored: usize) -> Result<String, CliError> {
-    let mirrored_left_out = report.replays.as_ref().map(|_| mirrored);
-    json_text(&Output { report, targets, mirrored_left_out }, "the report")
 }

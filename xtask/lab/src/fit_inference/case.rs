@@ -1,7 +1,10 @@
 //! One event: the evidence on every intent for each kind of minds, and SIMPLE's answer for any weights.
 
 use super::weights::Weights;
-use crate::check_minds::{is_true, recognition::Recognition, truth};
+use crate::{
+    check_minds::{is_true, truth},
+    recognition::Recognition,
+};
 use phase_event::{MethodError, ObservedEvent, ProgressCallback, Recording};
 use phase_model::{AGENT_COUNT, AgentId, EventKind, Goal, Strength};
 use phase_runs::error::RunError;

@@ -14,7 +14,7 @@ pub mod options;
 mod report;
 mod weights;
 
-use crate::{check_minds::parameters, error::LabError, fit_events::KeptFigures, fit_minds::folds, json_file};
+use crate::{check_minds::parameters, error::LabError, fit_events::KeptFigures, folds, json_file};
 use case::{EventEvidence, INTENTS, InferenceCase};
 use grid::Grid;
 use options::FitInference;

@@ -7,7 +7,7 @@
 pub mod options;
 mod regression;
 
-use crate::{error::LabError, fit_minds::folds, json_file};
+use crate::{error::LabError, folds, json_file};
 use options::FitReports;
 use phase_cli::output::{json_text, print_result};
 use phase_eval::{

@@ -136,17 +136,3 @@ fn the_scenes_of_the_house_are_sound() {
         assert!(scenes >= least, "{scenes} scenes in the set {}", set.name());
     }
 }
-
-/// A file for each part, and only that.
-#[test]
-fn drawn_scenes_are_drawn_again_from_their_seed() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let draw = |out| succeed(folder.path(), &["draw-behaviour", "--scenes", "1", "--out", out]);
-    draw("a");
-    draw("b");
-    let drawn = tree(&folder.path().join("a"));
-    assert_eq!(drawn, tree(&folder.path().join("b")));
-    assert_eq!(drawn.len(), 19);
-    let sentence = refuse(folder.path(), &["draw-behaviour", "--scenes", "0"]);
-    assert!(sentence.contains("--scenes"), "{sentence}");
-}

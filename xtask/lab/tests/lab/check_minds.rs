@@ -56,17 +56,15 @@ fn without_cpu(value: &mut Value) {
 fn recorded_motion_is_measured_as_by_hand() {
     let folder = folder(&[still(), walking()]);
     let path = folder.path();
-    let table = succeed(path, &check(&["--no-posterior", "--json", "out.json"]));
+    let table = succeed(path, &check(&["--json", "out.json"]));
     let rows = |name: &str| table.lines().filter(|line| line.starts_with(name)).count();
-    assert_eq!((rows("all "), rows("independent "), rows("helper ")), (2, 4, 0), "{table}");
+    assert_eq!((rows("all "), rows("independent "), rows("helping ")), (2, 2, 0), "{table}");
     let report = report(&path.join("out.json"));
     assert_eq!(report["format"], "phase-minds/1");
     assert_eq!((&report["events"], &report["decisions"]), (&json!(2), &json!(16)));
-    assert_eq!(report["log_posterior"], Value::Null);
     let kinds = &report["kinds"];
-    let roles = &report["roles"];
     assert_eq!(kinds.as_object().expect("kinds").len(), 1);
-    assert_eq!(roles["independent"]["stray_per_step"], report["stray_per_step"]);
+    assert_eq!(kinds["independent"]["stray_per_step"], report["stray_per_step"]);
     let [still, walking] = [&report["each"][0], &report["each"][1]];
     assert_eq!((&still["id"], &still["kind"]), (&json!("still"), &json!("independent")));
     // A step lasts 1/12 s of physics and 0.25 s of video.
@@ -103,7 +101,7 @@ fn whoever_is_where_it_wants_to_be_is_expected_to_stay() {
     content["trajectory"]["agents"][1] = json!(vec![json!([23.5, 19.5, 0.0, 0.0, 0.5]); 5]);
     content["trajectory"]["objects"][0] = json!(vec![json!([15.0, 15.0, 0.0, 0.0, 0.0]); 5]);
     let folder = folder(&[content]);
-    succeed(folder.path(), &check(&["--no-posterior", "--json", "out.json"]));
+    succeed(folder.path(), &check(&["--json", "out.json"]));
     let report = report(&folder.path().join("out.json"));
     for name in ["choice_probability", "outcomes_as_recorded", "still_share"] {
         assert!(number(&report[name]) > 0.9, "{name}: {}", report[name]);
@@ -123,8 +121,6 @@ fn results_do_not_depend_on_the_number_of_threads() {
         report
     });
     assert_eq!(reports[0], reports[1]);
-    let posterior = number(&reports[0]["log_posterior"]);
-    assert!(posterior < 0.0 && posterior.exp() > 0.0, "{posterior}");
 }
 
 #[test]
@@ -132,9 +128,9 @@ fn parameters_come_from_a_file() {
     let folder = folder(&[walking()]);
     let path = folder.path();
     fs::write(path.join("minds.json"), r#"{"lambda": 0.5, "particles": 7}"#).expect("written");
-    let printed = succeed(path, &check(&["--no-posterior", "--parameters", "minds.json", "--json"]));
+    let printed = succeed(path, &check(&["--parameters", "minds.json", "--json"]));
     let report: Value = serde_json::from_str(&printed).expect("one JSON object");
-    for minds in [&report["run"]["inference"]["agents"]["minds"], &report["run"]["open_loop"]["minds"]] {
+    for minds in [&report["run"]["observed"]["minds"], &report["run"]["open_loop"]["minds"]] {
         assert_eq!((&minds["lambda"], &minds["particles"]), (&json!(0.5), &json!(7)));
         assert_eq!(minds["simulations"], 10);
     }
@@ -189,16 +185,16 @@ fn rubbish_is_refused_in_one_sentence() {
 fn published_minds_turn_one_way_in_recordings() {
     let folder = folder(&[still(), walking()]);
     let path = folder.path();
-    let more = ["--no-posterior", "--minds", "published", "--ids", "still", "--json", "out.json"];
+    let more = ["--minds", "published", "--ids", "still", "--json", "out.json"];
     succeed(path, &check(&more));
     let report = report(&path.join("out.json"));
     assert_eq!((&report["events"], &report["run"]["minds"]), (&json!(1), &json!("published")));
-    let agents = &report["run"]["inference"]["agents"];
+    let agents = &report["run"]["observed"];
     let minds = &agents["minds"];
     assert_eq!((&minds["kind"], &agents["one_way_turns"]), (&json!("published"), &json!(true)));
     assert_eq!((&minds["simulations"], &minds["searches"]), (&json!(10), &json!(5)));
     let refused = refuse(path, &check(&["--searches", "2"]));
     assert!(refused.contains("--searches: phase minds search once a decision"), "{refused}");
     let refused = refuse(path, &check(&["--ids", "nobody"]));
-    assert!(refused.contains("has no event nobody"), "{refused}");
+    assert!(refused.contains("has no event \"nobody\""), "{refused}");
 }

@@ -1,7 +1,7 @@
 //! The decisions of which it is known what was done, because inverse dynamics explains the step.
 
-use super::{FIXED_LAPSE, Member};
-use phase_model::AgentId;
+use super::FIXED_LAPSE;
+use crate::check_minds::measure::MeasuredEvent;
 use phase_simple::choice::{Chance, log_likelihood};
 use phase_statistics::mean;
 use serde::Serialize;
@@ -22,11 +22,10 @@ pub(in crate::check_minds) struct ExplainedFigures {
 }
 
 impl ExplainedFigures {
-    pub(super) fn of(members: &[Member<'_>], lapse: f64) -> Self {
-        let decisions = members.iter().flat_map(|member| {
-            let of_agent = |&agent: &AgentId| member.event.chances[agent].iter().zip(&member.event.explained);
-            member.agents.iter().flat_map(of_agent)
-        });
+    pub(super) fn of(events: &[&MeasuredEvent], lapse: f64) -> Self {
+        let decisions = events
+            .iter()
+            .flat_map(|event| event.chances.iter().flat_map(|chances| chances.iter().zip(&event.explained)));
         let decisions: Vec<(&Chance, &bool)> = decisions.collect();
         let explained = decisions.iter().filter(|(_, explained)| **explained).map(|(chance, _)| **chance);
         let chances: Vec<Chance> = explained.collect();

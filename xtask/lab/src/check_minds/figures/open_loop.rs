@@ -1,8 +1,7 @@
 //! Simulations in the open loop beside the recordings, over a group of events.
 
-use super::Member;
-use crate::check_minds::motion::Motion;
-use phase_model::{AgentId, arena};
+use crate::check_minds::{measure::MeasuredEvent, motion::Motion};
+use phase_model::arena;
 use phase_statistics::{mean, percentile};
 use serde::Serialize;
 
@@ -48,18 +47,17 @@ pub(in crate::check_minds) struct OpenLoopFigures {
 }
 
 impl OpenLoopFigures {
-    pub(super) fn of(members: &[Member<'_>]) -> Self {
-        let agreements: Vec<[bool; 2]> = members.iter().flat_map(agreements).collect();
+    pub(super) fn of(events: &[&MeasuredEvent]) -> Self {
+        let agreements: Vec<[bool; 2]> = events.iter().flat_map(|event| agreements(event)).collect();
         let share = |k: usize| {
             mean(&agreements.iter().map(|agreement| f64::from(u8::from(agreement[k]))).collect::<Vec<_>>())
         };
-        let recorded = || members.iter().map(|member| (&member.event.recorded, &member.agents[..]));
-        let runs =
-            || members.iter().flat_map(|member| member.event.simulated.iter().map(move |run| (member, run)));
-        let simulated = || runs().map(|(member, run)| (&run.motion, &member.agents[..]));
-        let ratios = runs().filter_map(|(member, run)| {
-            let recorded = member.event.recorded.path(&member.agents);
-            (recorded > 0.0).then(|| run.motion.path(&member.agents) / recorded)
+        let recorded = || events.iter().map(|event| &event.recorded);
+        let runs = || events.iter().flat_map(|event| event.simulated.iter().map(move |run| (event, run)));
+        let simulated = || runs().map(|(_, run)| &run.motion);
+        let ratios = runs().filter_map(|(event, run)| {
+            let recorded = event.recorded.path();
+            (recorded > 0.0).then(|| run.motion.path() / recorded)
         });
         let cpu_seconds: Vec<f64> = runs().map(|(_, run)| run.cpu_seconds).collect();
         Self {
@@ -67,8 +65,8 @@ impl OpenLoopFigures {
             outcomes_as_recorded: share(0),
             outcomes_at_any_time: share(1),
             path_ratio: median(ratios),
-            path: median(simulated().map(|(motion, agents)| motion.path(agents))),
-            path_recorded: median(recorded().map(|(motion, agents)| motion.path(agents))),
+            path: median(simulated().map(Motion::path)),
+            path_recorded: median(recorded().map(Motion::path)),
             speed: median(simulated().flat_map(speeds)),
             speed_recorded: median(recorded().flat_map(speeds)),
             still_share: mean_share(simulated(), Motion::still_share),
@@ -87,30 +85,29 @@ impl OpenLoopFigures {
 
 /// For each own positive goal and seed whether its outcome is as recorded, and whether it holds at any time
 /// as recorded.
-fn agreements<'a>(member: &'a Member<'_>) -> impl Iterator<Item = [bool; 2]> + 'a {
-    let recorded = &member.event.recorded.reached;
-    member.event.simulated.iter().flat_map(move |run| {
-        member.agents.iter().filter_map(move |&agent| {
-            let ours = run.motion.reached[agent]?;
-            let theirs = recorded[agent]?;
+fn agreements(event: &MeasuredEvent) -> impl Iterator<Item = [bool; 2]> {
+    event.simulated.iter().flat_map(|run| {
+        let reached = run.motion.reached.iter().zip(&event.recorded.reached);
+        reached.filter_map(|(ours, theirs)| {
+            let (ours, theirs) = ours.zip(*theirs)?;
             Some([ours.outcome == theirs.outcome, ours.at_any_time == theirs.at_any_time])
         })
     })
 }
 
-fn speeds<'a>((motion, agents): (&'a Motion, &'a [AgentId])) -> impl Iterator<Item = f32> + 'a {
-    agents.iter().flat_map(|&agent| &motion.agents[agent].speeds).copied()
+fn speeds(motion: &Motion) -> impl Iterator<Item = f32> {
+    motion.agents.iter().flat_map(|agent| &agent.speeds).copied()
 }
 
 fn mean_share<'a>(
-    motions: impl Iterator<Item = (&'a Motion, &'a [AgentId])>,
-    share: fn(&Motion, &[AgentId]) -> Option<f64>,
+    motions: impl Iterator<Item = &'a Motion>,
+    share: fn(&Motion) -> Option<f64>,
 ) -> Option<f64> {
-    mean(&motions.filter_map(|(motion, agents)| share(motion, agents)).collect::<Vec<_>>())
+    mean(&motions.filter_map(share).collect::<Vec<_>>())
 }
 
-fn still_seconds<'a>(motions: impl Iterator<Item = (&'a Motion, &'a [AgentId])>) -> Vec<f64> {
-    motions.map(|(motion, _)| motion.longest_still as f64 * arena::STEP_VIDEO_SECONDS).collect()
+fn still_seconds<'a>(motions: impl Iterator<Item = &'a Motion>) -> Vec<f64> {
+    motions.map(|motion| motion.longest_still as f64 * arena::STEP_VIDEO_SECONDS).collect()
 }
 
 fn median(values: impl Iterator<Item = f32>) -> Option<f64> {
