@@ -18,7 +18,7 @@ use rand::{Rng, RngExt};
 
 /// One agent's goals and planners, with its own model of the dynamics. The belief is an argument of every
 /// decision, so inference can use a mind with estimated beliefs.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Mind<D> {
     agent: AgentId,
     physics: PhysicsConfig,

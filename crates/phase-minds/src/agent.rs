@@ -11,8 +11,9 @@ use phase_pomcp::PomcpError;
 ///
 /// Everything that it knows comes from observations. Whoever has the true state makes them by the senses of
 /// the agent's kind: the first by [`observe()`](crate::observe()), those after an action by
-/// [`observe`](Self::observe).
-#[derive(Debug)]
+/// [`observe`](Self::observe). A copy that goes on with copies of the generators decides as the original,
+/// bit for bit.
+#[derive(Clone, Debug)]
 pub struct Agent {
     mind: Box<dyn Mind>,
     belief: Box<dyn BeliefState>,

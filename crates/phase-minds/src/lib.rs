@@ -79,6 +79,15 @@ pub trait Mind: core::fmt::Debug + Send {
     /// Lets the next decision begin at a position of the original's stream: that at which the first agent's
     /// decision has left it, if this is the second agent. Minds with other random numbers ignore it.
     fn begin_at(&mut self, _position: u64) {}
+
+    /// A copy of this mind, which decides as this one.
+    fn boxed(&self) -> Box<dyn Mind>;
+}
+
+impl Clone for Box<dyn Mind> {
+    fn clone(&self) -> Self {
+        (**self).boxed()
+    }
 }
 
 /// The half of an agent that perceives and believes. It depends on observations, own actions and its random

@@ -40,6 +40,10 @@ impl Mind for phase_agent::Mind<Forward> {
     ) -> Result<(Action, Thought), PomcpError> {
         Self::decide(self, belief, random)
     }
+
+    fn boxed(&self) -> Box<dyn Mind> {
+        Box::new(self.clone())
+    }
 }
 
 /// A belief with the dynamics that predict it.

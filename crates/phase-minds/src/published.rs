@@ -48,6 +48,10 @@ impl Mind for phase_published::Mind {
     fn begin_at(&mut self, position: u64) {
         Self::begin_at(self, position);
     }
+
+    fn boxed(&self) -> Box<dyn Mind> {
+        Box::new(self.clone())
+    }
 }
 
 impl BeliefState for Belief {

@@ -60,6 +60,30 @@ fn every_kind_walks_to_its_landmark() {
     }
 }
 
+/// A copy with copies of the generator believes, decides and explains as the original.
+#[test]
+fn a_copy_decides_as_the_original() {
+    for kind in MindKind::ALL {
+        let scene = scene("null");
+        let forward = phase_forward::Forward::new(&scene.physics());
+        let mut state = scene.initial_state();
+        let mut random = random(1);
+        let first = observe(kind, &scene.physics(), &state, AgentId::ZERO);
+        let mut agent = Agent::new(&scene, &parameters(kind), &first, Some(&state), &mut random).unwrap();
+        for _ in 0..6 {
+            let (mut copy, mut its_random) = (agent.clone(), random.clone());
+            let decided = agent.decide(&mut random).unwrap();
+            assert_eq!(copy.decide(&mut its_random).unwrap(), decided, "{}", kind.name());
+            let substeps = forward.step_substeps(&mut state, [decided.0, Action::Up]);
+            let observation = agent.observe(&state);
+            agent.perceive(decided.0, &observation, &substeps, &mut random);
+            copy.perceive(decided.0, &observation, &substeps, &mut its_random);
+            assert_eq!(copy.belief().particles(), agent.belief().particles());
+            assert_eq!(copy.stream_position(), agent.stream_position());
+        }
+    }
+}
+
 #[test]
 fn one_way_turns_go_left_and_in_reflections_right() {
     let layout = Layout::new(4, None).unwrap();

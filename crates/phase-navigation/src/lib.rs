@@ -69,7 +69,7 @@ pub use parameters::{AssemblyParameters, IMPASSABLE_COST, NavigationParameters};
 pub use route::Route;
 pub use ways::Crossing;
 
-use phase_model::{RoomId, Vec2};
+use phase_model::{Entity, PhysicsConfig, RoomId, Vec2};
 
 /// A place to go to.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -90,4 +90,15 @@ pub enum Target {
 pub struct Mover {
     /// Half the width of the body (u): 1.5 R for an agent, the radius of an object.
     pub half_width: f32,
+}
+
+impl Mover {
+    /// An entity as a mover.
+    #[must_use]
+    pub fn of(physics: &PhysicsConfig, entity: Entity) -> Self {
+        match entity {
+            Entity::Agent(agent) => Self { half_width: 0.5 * physics.agents[agent].width() },
+            Entity::Object(_) => Self { half_width: physics.radius(entity) },
+        }
+    }
 }

@@ -20,7 +20,7 @@ use phase_pomcp::{PomcpError, PomcpSettings};
 use rand::Rng;
 
 /// The mind of one agent of the published simulator. The belief is an argument of every decision.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Mind {
     rules: Rules,
     imagined: Imagined,

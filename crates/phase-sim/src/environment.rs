@@ -8,7 +8,8 @@ use phase_world::World;
 /// The world that an event happens in: the true dynamics, as opposed to the agents' models of it.
 ///
 /// It is a state of all bodies with the memory of the engine, such as contact impulses, so that two
-/// environments in the same state need not go on alike.
+/// environments in the same state need not go on alike. A copy has that memory, too, and goes on as the
+/// original, bit for bit.
 ///
 /// # Examples
 /// A strong agent that pushes forward moves:
@@ -31,6 +32,7 @@ use phase_world::World;
 /// assert!(substeps[4].position(me).distance(start.position(me)) > 0.05);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
+#[derive(Clone)]
 pub struct Environment(Inner);
 
 impl core::fmt::Debug for Environment {
@@ -43,6 +45,7 @@ impl core::fmt::Debug for Environment {
     }
 }
 
+#[derive(Clone)]
 enum Inner {
     World(Box<World>),
     Forward(Box<StatefulForward>),
@@ -92,6 +95,7 @@ impl Environment {
 }
 
 /// The kernel with its cache, which is its closest approximation of the published simulator.
+#[derive(Clone)]
 struct StatefulForward {
     forward: Forward,
     state: State,

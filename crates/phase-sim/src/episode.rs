@@ -21,7 +21,8 @@ pub enum View {
 /// A scene in which the caller chooses both agents' actions, step by step.
 ///
 /// It has the true dynamics, what either agent observes, and the rewards of Equation 1. It never ends: the
-/// caller decides for how long it goes on.
+/// caller decides for how long it goes on. A copy saves everything, contact impulses and grips included: it
+/// goes on as the original, bit for bit.
 ///
 /// ```
 /// use phase_model::{Action, AgentId};
@@ -39,13 +40,15 @@ pub enum View {
 /// assert!(episode.rewards(actions)[1] < episode.rewards([Action::Stop; 2])[1]);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Episode {
     environment: Environment,
     physics: PhysicsConfig,
     goals: [Goal; AGENT_COUNT],
     attitudes: [Attitude; AGENT_COUNT],
     writer: VectorWriter,
+    /// The state before the last step; the initial state before the first one.
+    before: State,
     /// The states after each substep of the last step; the initial state before the first one.
     substeps: [State; SUBSTEPS],
 }
@@ -61,6 +64,7 @@ impl Episode {
             writer: VectorWriter::new(scene),
             goals: scene.goals(),
             attitudes: scene.attitudes(),
+            before: state,
             substeps: [state; SUBSTEPS],
             physics,
         }
@@ -68,6 +72,7 @@ impl Episode {
 
     /// Lets both agents act for one step, the first action being that of agent 0.
     pub fn step(&mut self, actions: [Action; AGENT_COUNT]) {
+        self.before = *self.state();
         self.substeps = self.environment.step(actions);
     }
 
@@ -81,6 +86,12 @@ impl Episode {
     #[must_use]
     pub const fn state(&self) -> &State {
         &self.substeps[SUBSTEPS - 1]
+    }
+
+    /// The true state before the last step; the initial state before the first one.
+    #[must_use]
+    pub const fn before(&self) -> &State {
+        &self.before
     }
 
     /// The true states after each substep of the last step; before the first step, the initial state five

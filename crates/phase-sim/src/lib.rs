@@ -45,6 +45,7 @@
 #![deny(missing_docs)]
 
 mod beliefs;
+mod distances;
 mod environment;
 mod episode;
 mod replay;
@@ -53,6 +54,7 @@ mod simulation;
 pub mod vector;
 
 pub use beliefs::{BeliefSnapshot, beliefs};
+pub use distances::Distances;
 pub use environment::Environment;
 pub use episode::{Episode, View};
 pub use replay::replay;

@@ -262,10 +262,7 @@ impl Compiler<'_, '_> {
     }
 
     fn mover(&self, entity: Entity) -> Mover {
-        match entity {
-            Entity::Agent(agent) => Mover { half_width: 0.5 * self.physics.agents[agent].width() },
-            Entity::Object(_) => Mover { half_width: self.physics.radius(entity) },
-        }
+        Mover::of(self.physics, entity)
     }
 
     fn way_to(&mut self, entity: Entity) -> way::Way {
