@@ -1,9 +1,9 @@
 """Steps a second of PHASE's environments beside those of PettingZoo's MPE and of VMAS, in one run on one core.
 
-A step is one of every environment: both agents of a PHASE world, all agents of `simple_tag`. Actions are random and drawn before the
-clock starts. MPE and VMAS are measured where they are installed (`pip install mpe2 vmas`).
+A step is one of every environment: both agents of a PHASE world, all agents of `simple_tag`. Seconds are of CPU time. Actions are random and
+drawn before the clock starts. MPE and VMAS are measured where they are installed (`pip install mpe2 vmas`).
 
-Usage: steps_per_second.py [--seconds 2]
+Usage: steps_per_second.py [--seconds 2] [--only engine|learning|others]
 """
 
 import argparse
@@ -19,8 +19,8 @@ if hasattr(os, "sched_setaffinity"):
 
 import numpy as np
 
-from phase_events import _native, sample_scene
-from phase_events.env import PhaseParallelEnv
+from phase_events import Mind, _native, sample_scene
+from phase_events.env import PhaseEnv, PhaseParallelEnv
 from phase_events.vector import PhaseVectorEnv
 
 
@@ -28,11 +28,11 @@ def rate(step, environments, seconds):
     """Steps of an environment a second."""
     for _ in range(3):
         step()
-    count, begun = 0, time.perf_counter()
-    while time.perf_counter() - begun < seconds:
+    count, begun = 0, time.process_time()
+    while time.process_time() - begun < seconds:
         step()
         count += 1
-    return count * environments / (time.perf_counter() - begun)
+    return count * environments / (time.process_time() - begun)
 
 
 def phase_single(engine):
@@ -53,6 +53,32 @@ def phase_vector(worlds, engine, observation="view"):
     actions = np.random.default_rng(0).integers(14, size=(50, 2 * worlds))
     k = iter(range(10**9))
     return lambda: env.step(actions[next(k) % 50])
+
+
+def phase_learner(partner, given):
+    """A learner with a partner, in new scenes after every 100 steps."""
+    env = PhaseEnv([sample_scene("helping", seed=k) for k in range(16)], partner=partner, **given)
+    env.reset(seed=1)
+    actions = iter(np.random.default_rng(0).integers(14, size=4_000_000).tolist())
+
+    def step():
+        if env.step(next(actions))[3]:
+            env.reset()
+
+    return step
+
+
+def save_and_restore(partner):
+    """A state that is saved, restored and left by a step."""
+    env = PhaseEnv(sample_scene("helping", seed=1), partner=partner, max_steps=10**9)
+    env.reset(seed=1)
+    for action in range(14):
+        env.step(action)
+
+    def step():
+        env.set_state(env.get_state())
+
+    return step
 
 
 def native_vector(worlds, engine):
@@ -89,8 +115,10 @@ def vmas(worlds):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--seconds", type=float, default=2.0, help="how long each is measured")
-    seconds = parser.parse_args().seconds
-    measured = {}
+    parser.add_argument("--only", choices=("engine", "learning", "others"), help="one part")
+    arguments = parser.parse_args()
+    seconds, measured = arguments.seconds, {}
+    parts = (arguments.only,) if arguments.only else ("engine", "learning", "others")
 
     def measure(name, make, environments, *arguments):
         try:
@@ -99,15 +127,29 @@ def main():
             measured[name] = f"not installed: {error.name}"
         print(f"{name:<40} {measured[name]:>12}", flush=True)
 
-    for engine in ("world", "forward"):
-        measure(f"phase single {engine}", phase_single, 1, engine)
-    measure("mpe simple_tag", mpe, 1)
-    for worlds in (1, 64, 1024):
+    if "engine" in parts:
         for engine in ("world", "forward"):
-            measure(f"phase vector {worlds} {engine}", phase_vector, worlds, worlds, engine)
-            measure(f"rust alone {worlds} {engine}", native_vector, worlds, worlds, engine)
-        measure(f"phase vector {worlds} forward, state", phase_vector, worlds, worlds, "forward", "state")
-        measure(f"vmas simple_tag {worlds}", vmas, worlds, worlds)
+            measure(f"phase single {engine}", phase_single, 1, engine)
+        for worlds in (1, 64, 1024):
+            for engine in ("world", "forward"):
+                measure(f"phase vector {worlds} {engine}", phase_vector, worlds, worlds, engine)
+                measure(f"rust alone {worlds} {engine}", native_vector, worlds, worlds, engine)
+            measure(f"phase vector {worlds} forward, state", phase_vector, worlds, worlds, "forward", "state")
+    if "learning" in parts:
+        minds = {"phase": "phase", "phase, 50 simulations": Mind(parameters={"simulations": 50, "particles": 10})}
+        for name, partner in {"still": "still", "random": "random", "heuristic": "heuristic", **minds}.items():
+            measure(f"learner, partner {name}", phase_learner, 1, partner, {})
+        for given in ({"reward": "progress"}, {"observation": "image"}, {"observation": "state_image"}):
+            name = " ".join(given.values())
+            measure(f"learner, {name}", phase_learner, 1, "still", given)
+            measure(f"learner, {name}, forward", phase_learner, 1, "still", {**given, "engine": "forward"})
+        measure("learner, forward", phase_learner, 1, "still", {"engine": "forward"})
+        for partner in ("still", "phase"):
+            measure(f"get_state and set_state, partner {partner}", save_and_restore, 1, partner)
+    if "others" in parts:
+        measure("mpe simple_tag", mpe, 1)
+        for worlds in (1, 64, 1024):
+            measure(f"vmas simple_tag {worlds}", vmas, worlds, worlds)
     print(json.dumps(measured))
 
 

@@ -1,6 +1,6 @@
 //! Events: simulated, read, as arrays.
 
-use crate::{arrays::row_of, error::raise, mind::read_parameters, scene::Scene, worlds::engine_of};
+use crate::{arrays::row_of, error::raise, mind::read_parameters, scene::Scene, world::engine_of};
 use core::ops::ControlFlow;
 use numpy::{PyArray2, PyArray3};
 use phase_event::{Recording, Thought, from_json, to_json};

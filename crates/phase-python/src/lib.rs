@@ -10,7 +10,7 @@
 //! longer vector than most learners need.
 //!
 //! The interpreter's lock is released in every call that computes. Everything can be copied and pickled: what
-//! changes keeps its past and repeats it (`worlds`, `mind`, `observer`).
+//! changes keeps its past and repeats it (`world`, `mind`, `observer`).
 
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
@@ -24,7 +24,9 @@ mod mind;
 mod observer;
 mod perceive;
 mod pools;
+mod saved;
 mod scene;
+mod world;
 mod worlds;
 
 use phase_sim::vector;
@@ -40,6 +42,7 @@ fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("ACTIONS", scene::action_names())?;
     module.add_class::<scene::Scene>()?;
     module.add_class::<worlds::Worlds>()?;
+    module.add_class::<saved::WorldState>()?;
     module.add_class::<mind::Mind>()?;
     module.add_class::<event::Event>()?;
     module.add_class::<event::EventSource>()?;

@@ -22,8 +22,8 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 /// The mind of one agent, with its belief, of the kind `phase`. Users see it as `phase_events.Mind`.
 ///
-/// A copy, also one that is pickled, has what was observed and done. It perceives that again, without the
-/// searches, and so believes and decides as the original, bit for bit.
+/// A copy believes and decides as the original, bit for bit. One that is pickled has what was observed and
+/// done, and perceives that again, without the searches.
 #[pyclass(frozen, module = "phase_events._native")]
 pub(crate) struct Mind {
     agent: AgentId,
@@ -39,6 +39,7 @@ pub(crate) struct Mind {
 type Past<'py> = (Bound<'py, PyArray2<f32>>, Vec<usize>, Option<usize>, u64, Option<String>);
 
 /// The parts of a mind that change as it observes and decides.
+#[derive(Clone)]
 struct MindState {
     scene: phase_model::Scene,
     parameters: MindParameters,
@@ -96,13 +97,7 @@ impl Mind {
     fn new(scene: &Bound<'_, Scene>, agent: usize, seed: u64, parameters: Option<String>) -> PyResult<Self> {
         let agent = agent_of(agent)?;
         let given = parameters;
-        let parameters = read_parameters(given.as_deref())?;
-        if parameters.kind() != MindKind::Phase {
-            return Err(raise(
-                "a mind that decides from observations is of the kind phase: published minds have senses of \
-                 their own",
-            ));
-        }
+        let parameters = own_parameters(given.as_deref())?;
         let entities = scene.get().scene.physics().entities().count();
         let state = MindState {
             scene: scene.get().scene.clone(),
@@ -117,6 +112,12 @@ impl Mind {
         };
         let state = Arc::new(Mutex::new(state));
         Ok(Self { agent, entities, scene: scene.clone().unbind(), seed, parameters: given, state })
+    }
+
+    /// Checks parameters, without a scene. `PhaseError` as of the constructor.
+    #[staticmethod]
+    fn check(parameters: &str) -> PyResult<()> {
+        own_parameters(Some(parameters)).map(drop)
     }
 
     /// The arguments of the constructor, and of `__setstate__`.
@@ -137,6 +138,14 @@ impl Mind {
         let thought = state.thought.as_ref().map(Value::to_string);
         let past = (vectors, actions, state.last_action.map(Action::index), state.searches, thought);
         Ok((Self::type_object(py).into_any(), arguments, past))
+    }
+
+    fn __copy__(&self, py: Python<'_>) -> Self {
+        self.copied(py)
+    }
+
+    fn __deepcopy__(&self, py: Python<'_>, _memo: &Bound<'_, PyAny>) -> Self {
+        self.copied(py)
     }
 
     /// Perceives again what a mind has gone through. `PhaseError` for what no mind of this agent has.
@@ -212,6 +221,15 @@ impl Mind {
 }
 
 impl Mind {
+    fn copied(&self, py: Python<'_>) -> Self {
+        Self {
+            scene: self.scene.clone_ref(py),
+            parameters: self.parameters.clone(),
+            state: Arc::new(Mutex::new(self.state().clone())),
+            ..*self
+        }
+    }
+
     fn state(&self) -> MutexGuard<'_, MindState> {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
@@ -241,6 +259,20 @@ pub(crate) fn decide_all<'py>(
         pool.install(|| tasks.par_iter().map(one).collect())
     });
     decided.map(|actions| PyArray1::from_vec(py, actions)).map_err(raise)
+}
+
+/// The parameters of a mind that decides from observations.
+///
+/// # Errors
+/// `PhaseError` that names the parameter and the rule, and for another kind of mind.
+fn own_parameters(text: Option<&str>) -> PyResult<MindParameters> {
+    let parameters = read_parameters(text)?;
+    if parameters.kind() == MindKind::Phase {
+        return Ok(parameters);
+    }
+    Err(raise(
+        "a mind that decides from observations is of the kind phase: published minds have senses of their own",
+    ))
 }
 
 /// The parameters of minds as a JSON object, of which all that are absent have their defaults.

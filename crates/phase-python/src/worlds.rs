@@ -4,13 +4,16 @@ use crate::{
     arrays::{BODY_COLUMNS, Target, reading, row_of, writing},
     error::raise,
     pools::{check_threads, pool},
+    saved::WorldState,
     scene::{Scene, action_of},
+    world::{World, engine_of, read_history},
 };
 use numpy::{PyArray1, PyArray2, PyArray3, PyArrayMethods};
 use phase_model::{AGENT_COUNT, Action, AgentId, MAX_ENTITIES, PhysicsConfig, State};
-use phase_sim::{Engine, Episode, View, vector::SIZE};
+use phase_sim::{Distances, Engine, Episode, View, vector::SIZE};
 use pyo3::{prelude::*, types::PyBytes};
-use rayon::prelude::*;
+use rayon::{ThreadPool, prelude::*};
+use std::sync::Arc;
 
 /// Worlds that one thread steps at least, so that handing them over pays.
 const WORLDS_A_THREAD: usize = 8;
@@ -25,25 +28,6 @@ pub(crate) struct Worlds {
     engine: Engine,
     view: View,
     threads: usize,
-}
-
-/// A world and how it came about.
-struct World {
-    scene: Py<Scene>,
-    episode: Episode,
-    actions: Vec<[Action; AGENT_COUNT]>,
-}
-
-impl World {
-    fn new(scene: &Bound<'_, Scene>, engine: Engine) -> Self {
-        let episode = Episode::new(&scene.get().scene, engine);
-        Self { scene: scene.clone().unbind(), episode, actions: Vec::new() }
-    }
-
-    fn step(&mut self, actions: [Action; AGENT_COUNT]) {
-        self.episode.step(actions);
-        self.actions.push(actions);
-    }
 }
 
 /// The parts of the output arrays that a step writes for one world.
@@ -79,20 +63,14 @@ impl Worlds {
         let this = lent(slf)?;
         let scenes = this.worlds.iter().map(|world| world.scene.clone_ref(py)).collect();
         let omniscient = matches!(this.view, View::Everything);
-        let numbers = |world: &World| {
-            world.actions.iter().flatten().map(|action| action.index() as u8).collect::<Vec<_>>()
-        };
-        let actions = this.worlds.iter().map(|world| PyBytes::new(py, &numbers(world))).collect();
+        let actions = this.worlds.iter().map(|world| world.history(py)).collect();
         let arguments = (scenes, this.engine.name(), omniscient, this.threads);
         Ok((slf.get_type().into_any(), arguments, actions))
     }
 
     /// Repeats the actions of every world: bytes, those of agents 0 and 1 in turns.
     fn __setstate__(&mut self, py: Python<'_>, actions: Vec<Vec<u8>>) -> PyResult<()> {
-        let read = |numbers: Vec<u8>| {
-            let pairs = numbers.chunks_exact(AGENT_COUNT);
-            pairs.map(|pair| Ok([action_of(pair[0].into())?, action_of(pair[1].into())?])).collect()
-        };
+        let read = |numbers: Vec<u8>| read_history(&numbers);
         let actions: Vec<Vec<_>> = actions.into_iter().map(read).collect::<PyResult<_>>()?;
         let worlds = &mut self.worlds;
         py.detach(|| {
@@ -112,6 +90,27 @@ impl Worlds {
         let mut this = lent_mut(slf)?;
         let index = this.index(world)?;
         this.worlds[index] = World::new(scene, this.engine);
+        Ok(())
+    }
+
+    /// A world as it is now. `PhaseError` if there is no such world.
+    fn save(slf: &Bound<'_, Self>, world: i64) -> PyResult<WorldState> {
+        let this = lent(slf)?;
+        let world = this.worlds[this.index(world)?].copied(slf.py());
+        Ok(WorldState { world, engine: this.engine })
+    }
+
+    /// Puts a saved world in the place of one of these. `PhaseError` if there is no such world, and for a
+    /// state of another engine.
+    fn restore(slf: &Bound<'_, Self>, world: i64, state: &Bound<'_, WorldState>) -> PyResult<()> {
+        let mut this = lent_mut(slf)?;
+        let index = this.index(world)?;
+        let state = state.get();
+        if state.engine != this.engine {
+            let (found, own) = (state.engine.name(), this.engine.name());
+            return Err(raise(format!("the state is of the engine {found}, the environment of {own}")));
+        }
+        this.worlds[index] = state.world.copied(slf.py());
         Ok(())
     }
 
@@ -173,8 +172,7 @@ impl Worlds {
         let rewards = rewards.numbers();
         let mut achieved = Target::new(achieved.as_array_mut());
         let achieved = achieved.numbers();
-        let pool =
-            if this.threads > 1 && count > WORLDS_A_THREAD { Some(pool(py, this.threads)?) } else { None };
+        let pool = this.pool(py)?;
         let Self { worlds, view, .. } = &mut *this;
         let view = *view;
         let one = |row: Row<'_>| {
@@ -220,21 +218,63 @@ impl Worlds {
         PyArray2::from_vec2(slf.py(), &rows).map_err(raise)
     }
 
-    /// The bodies of all worlds: (N, 4, 6), columns as of `bodies`; 0 for absent objects.
-    fn states<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyArray3<f32>>> {
+    /// The bodies of all worlds, now or before the last step: (N, 4, 6), columns as of `bodies`; 0 for absent
+    /// objects.
+    #[pyo3(signature = (before=false))]
+    fn states<'py>(slf: &Bound<'py, Self>, before: bool) -> PyResult<Bound<'py, PyArray3<f32>>> {
         let this = lent(slf)?;
         let states = PyArray3::zeros(slf.py(), [this.worlds.len(), MAX_ENTITIES, BODY_COLUMNS], false);
         let mut rows = states.readwrite();
         for (world, mut rows) in this.worlds.iter().zip(rows.as_array_mut().outer_iter_mut()) {
             let episode = &world.episode;
+            let state = if before { episode.before() } else { episode.state() };
             for (entity, mut row) in episode.physics().entities().zip(rows.outer_iter_mut()) {
-                for (to, from) in row.iter_mut().zip(row_of(episode.state().body(entity))) {
+                for (to, from) in row.iter_mut().zip(row_of(state.body(entity))) {
                     *to = from;
                 }
             }
         }
         drop(rows);
         Ok(states)
+    }
+
+    /// The distances to go of all worlds (u), now or before the last step: of each goal, and of each agent to
+    /// the object that it moves, two arrays (N, 2).
+    #[allow(clippy::type_complexity)]
+    #[pyo3(signature = (before=false))]
+    fn distances<'py>(
+        slf: &Bound<'py, Self>,
+        before: bool,
+    ) -> PyResult<(Bound<'py, PyArray2<f32>>, Bound<'py, PyArray2<f32>>)> {
+        let py = slf.py();
+        let mut this = lent_mut(slf)?;
+        let pool = this.pool(py)?;
+        let worlds = &mut this.worlds;
+        let one = |world: &mut World| {
+            let state = if before { world.episode.before() } else { world.episode.state() };
+            let distances = world.distances.get_or_insert_with(|| Distances::new(&world.scene.get().scene));
+            (distances.goals(state), distances.approaches(state))
+        };
+        let found: Vec<_> = py.detach(|| match pool {
+            None => worlds.iter_mut().map(one).collect(),
+            Some(pool) => {
+                pool.install(|| worlds.par_iter_mut().with_min_len(WORLDS_A_THREAD).map(one).collect())
+            }
+        });
+        let array = |numbers: Vec<f32>| PyArray1::from_vec(py, numbers).reshape([found.len(), AGENT_COUNT]);
+        let goals = array(found.iter().flat_map(|(goals, _)| *goals).collect())?;
+        Ok((goals, array(found.iter().flat_map(|(_, approaches)| *approaches).collect())?))
+    }
+
+    /// The attitude of each agent towards the other, (N, 2): 1 helps, −1 hinders, 0 neither.
+    fn attitudes<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyArray2<i64>>> {
+        let this = lent(slf)?;
+        let alphas = |world: &World| {
+            let attitudes = world.scene.get().scene.attitudes();
+            attitudes.map(|attitude| i64::from(attitude.alpha()))
+        };
+        let alphas: Vec<i64> = this.worlds.iter().flat_map(alphas).collect();
+        PyArray1::from_vec(slf.py(), alphas).reshape([this.worlds.len(), AGENT_COUNT])
     }
 
     /// The bodies after each substep of the last step: (5, entities, 6).
@@ -259,8 +299,19 @@ impl Worlds {
 }
 
 impl Worlds {
+    /// The threads that step these worlds, if that pays.
+    pub(crate) fn pool(&self, py: Python<'_>) -> PyResult<Option<Arc<ThreadPool>>> {
+        let pays = self.threads > 1 && self.worlds.len() > WORLDS_A_THREAD;
+        pays.then(|| pool(py, self.threads)).transpose()
+    }
+
+    /// The episodes of all worlds.
+    pub(crate) fn episodes(&self) -> Vec<&Episode> {
+        self.worlds.iter().map(|world| &world.episode).collect()
+    }
+
     /// The number of a world.
-    fn index(&self, world: i64) -> PyResult<usize> {
+    pub(crate) fn index(&self, world: i64) -> PyResult<usize> {
         let count = self.worlds.len();
         let index = usize::try_from(world).ok().filter(|&index| index < count);
         index.ok_or_else(|| raise(format!("there are {count} worlds, and no world {world}")))
@@ -295,15 +346,4 @@ fn write_both(episode: &Episode, view: View, out: &mut [f32]) {
     for (agent, out) in AgentId::ALL.into_iter().zip(out.chunks_exact_mut(SIZE)) {
         episode.write_observation(agent, view, out);
     }
-}
-
-/// An engine by its name.
-///
-/// # Errors
-/// `PhaseError` that has the names there are.
-pub(crate) fn engine_of(name: &str) -> PyResult<Engine> {
-    Engine::named(name).ok_or_else(|| {
-        let names = Engine::ALL.map(Engine::name).join(" or ");
-        raise(format!("engine must be {names}, not {name:?}"))
-    })
 }

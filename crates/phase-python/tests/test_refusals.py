@@ -160,6 +160,36 @@ def test_what_is_no_text_scene_or_event(scene, event, tmp_path):
                 pytest.fail(f"use {number} took {wrong!r}")
 
 
+def test_names_that_are_misspelt(scene):
+    """The sentence has the names there are."""
+    kinds = "kind must be one of helping, hindering, chasing, competing, collaborating, independent, not 'helpin'"
+    for use, sentence in (
+        (lambda: PhaseEnv("helpin"), kinds),
+        (lambda: phase.sample_scene("helpin"), kinds.replace("'", '"')),
+        (lambda: phase.sample_scene("chasing", variant="fech"), "variant must be one of"),
+        (lambda: PhaseEnv(scene, engine="rapier"), "engine must be one of world, forward, not 'rapier'"),
+        (lambda: PhaseEnv(scene, partner="heuristics"), "partner must be one of phase, heuristic, random, still, or a policy"),
+        (lambda: PhaseEnv(scene, observation="all"), "observation must be one of view, state, image, state_image"),
+        (lambda: PhaseVectorEnv(2, scene, autoreset="never"), "autoreset must be one of next_step, same_step, disabled"),
+    ):
+        with pytest.raises(phase.PhaseError, match=sentence):
+            use()
+
+
+def test_a_mind_refuses_parameters_when_it_is_made():
+    """Without a scene, too, and before an environment begins."""
+    for wrong, sentence in (
+        ({"simulation": 5}, "simulation"),
+        ({"simulations": 0}, "simulations"),
+        ({"kind": "published"}, "kind phase"),
+        ({"kind": "phas"}, "kind"),
+        ([], "parameters of minds must be an object"),
+    ):
+        with pytest.raises(phase.PhaseError, match=sentence):
+            phase.Mind(parameters=wrong)
+    assert phase.Mind(parameters={"simulations": 5}) is not None
+
+
 def test_what_is_no_path(event, tmp_path):
     for wrong in (7, None, True, 0.5, ["x"], "", "a\0b", tmp_path, tmp_path / "no" / "file"):
         for use in (event.save, event.save_video, lambda path: save_events([event], path), lambda path: phase.load_events(path)):

@@ -192,8 +192,11 @@ def test_options_are_taken_or_refused():
         with pytest.raises(phase.PhaseError, match="seed"):
             vector.reset(seed=wrong)
     parallel = PhaseParallelEnv("helping")
-    with pytest.warns(UserWarning, match="reset_mask"):
-        parallel.reset(options={"reset_mask": 1})
+    for wrong in ({"reset_mask": 1}, {"options": 2}, {"options": 1, "scene": "chasing"}):
+        with pytest.raises(phase.PhaseError, match="options may have scene"):
+            parallel.reset(options=wrong)
+    # What PettingZoo's test of conformance passes.
+    parallel.reset(options={"options": 1})
     _, _ = parallel.reset(seed=1, options={"scene": "chasing"})
     assert parallel.scene.kind == "chasing"
     with pytest.raises(phase.PhaseError, match="options"):

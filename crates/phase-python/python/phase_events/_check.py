@@ -63,7 +63,7 @@ def text(name, value):
 def choice(name, value, options):
     """One of some names."""
     if not isinstance(value, str) or value not in options:
-        raise PhaseError(f"{name} is {' or '.join(options)}, not {value!r}")
+        raise PhaseError(f"{name} must be one of {', '.join(options)}, not {value!r}")
     return value
 
 

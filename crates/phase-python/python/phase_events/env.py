@@ -2,17 +2,19 @@
 
 A step lasts 0.25 s. Actions are indices of ``ACTIONS``. Observations are described in :mod:`phase_events.observation`. The reward of a
 step is Equation 1 of the paper, (1 - |attitude|) R(s, own goal) + attitude R(s, other's goal) + C(a), where R is 1 while the goal holds
-and C(a) is -0.02 for the seven pushes that are not forward, otherwise 0. Episodes do not terminate; they are truncated after
-``max_steps``.
+and C(a) is -0.02 for the seven pushes that are not forward, otherwise 0; :mod:`phase_events.rewards` has others. Episodes do not
+terminate; they are truncated after ``max_steps``.
 
-Environments can be copied and pickled at any time. A copy goes on as the original does: its world repeats the actions so far.
+Environments can be copied and pickled at any time. A copy goes on as the original does. ``get_state`` and ``set_state`` save and restore
+an episode.
 """
 
 import copy
 import inspect
 import os
-import warnings
 from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
 
 import gymnasium
 import numpy as np
@@ -24,40 +26,110 @@ from ._check import MOST_STEPS, as_action, choice, seed_of, whole
 from ._native import ACTIONS, OBSERVATION_SIZE, PhaseError
 from .events import SIDES
 from .policies import HeuristicPolicy, Mind, RandomPolicy, StillPolicy
+from .rewards import Transition, as_reward, rewarded
 from .scenes import as_source
 
 RENDER_MODES = ("human", "rgb_array")
 STEPS_PER_SECOND = 4
 AGENTS = ("agent_0", "agent_1")
-VIEWS = ("view", "state")
+VIEWS = ("view", "state", "image", "state_image")
 ENGINES = ("world", "forward")
 
 
-def observation_space():
-    """The space of an agent's observation: a box of ``OBSERVATION_SIZE`` 32-bit floats without bounds."""
+def observation_space(observation="view", image_side=64):
+    """The space of an agent's observation.
+
+    Args:
+        observation: ``view`` or ``state``: a box of ``OBSERVATION_SIZE`` 32-bit floats without bounds; ``image`` or ``state_image``: a box
+            of (image_side, image_side, 3) 8-bit numbers, red, green, blue.
+        image_side: the side of a picture (pixels).
+    """
+    if observation.endswith("image"):
+        return spaces.Box(0, 255, (image_side, image_side, 3), np.uint8)
     return spaces.Box(-np.inf, np.inf, (OBSERVATION_SIZE,), np.float32)
+
+
+@dataclass(frozen=True)
+class EnvState:
+    """One world of an environment as it was: all that decides how it goes on, bit for bit.
+
+    It can be pickled, and restored as often as one likes, also in another environment and process that was made with the same arguments.
+    In this process it is a copy of the world and of the partner's mind. Pickled, both are the past, which is gone through again on
+    reading, without searches: 100 steps take some 20 ms.
+    """
+
+    world: Any
+    """Bodies, grips and the engine's memory, such as impulses of contacts."""
+    seed: int
+    """The seed of the episode."""
+    steps: int
+    """Steps since the episode began."""
+    over: bool
+    """Whether the episode is over."""
+    random: dict
+    """The state of the generator from which later episodes are drawn."""
+    partner: Any
+    """A copy of the partner's policy with its memory and random numbers; ``None`` for one without ``reset``, which has no memory."""
+    pool: Any
+    """The scenes of later episodes, if they were drawn beforehand."""
+
+    @property
+    def scene(self):
+        """The :class:`Scene` of the episode."""
+        return self.world.scene
+
+
+def saved_partner(partner):
+    """What of a partner is part of a state: a copy of one that knows its episode, otherwise ``None``."""
+    return copy.deepcopy(partner) if hasattr(partner, "reset") else None
+
+
+def check_state(state, engine, partner):
+    """Refuses the state of an environment that was made with other arguments.
+
+    Args:
+        state: anything.
+        engine: the name of the environment's engine.
+        partner: the environment's partner; ``None`` without one.
+
+    Raises:
+        PhaseError: for what is no :class:`EnvState`, and for one of another engine or kind of partner.
+    """
+    if not isinstance(state, EnvState):
+        raise PhaseError(f"a state is what get_state returned, not {type(state).__name__}")
+    if state.world.engine != engine:
+        raise PhaseError(f"the state is of the engine {state.world.engine}, the environment of {engine}")
+    expected = type(partner) if hasattr(partner, "reset") else type(None)
+    if type(state.partner) is not expected:
+        raise PhaseError(f"the state has the partner {type(state.partner).__name__}, the environment {expected.__name__}")
 
 
 class Arena:
     """One world with its scene, clock and pictures: the part that both kinds of environments share.
 
     Args:
-        scenes, engine, observation, max_steps, render_mode, side: as of :class:`PhaseParallelEnv`.
+        scenes, engine, observation, image_side, reward, max_steps, render_mode, side: as of :class:`PhaseParallelEnv`.
+        agent: the learner, 0 or 1, or ``None`` for both.
 
     Raises:
         PhaseError: for an invalid argument.
 
-    ``observations`` (1, 2, OBSERVATION_SIZE), ``rewards`` (1, 2) and ``achieved`` (1, 2), whether goals hold, are overwritten by every
-    step.
+    ``observations`` (1, 2, OBSERVATION_SIZE), ``rewards`` (learners,) and ``achieved`` (1, 2), whether goals hold, are overwritten by
+    every step.
     """
 
-    def __init__(self, scenes, engine, observation, max_steps, render_mode, side):
-        self._omniscient = choice("observation", observation, VIEWS) == "state"
-        self._engine = choice("engine", engine, ENGINES)
+    def __init__(self, scenes, engine, observation, image_side, reward, max_steps, render_mode, side, agent):
+        self._view = choice("observation", observation, VIEWS)
+        self.engine = choice("engine", engine, ENGINES)
         if render_mode is not None:
             choice("render_mode", render_mode, RENDER_MODES)
-        self._source = as_source(scenes)
+        self._source, self.pool = as_source(scenes), None
         self._renderer = _native.Renderer(whole("side", side, *SIDES))
+        self._image_side = whole("image_side", image_side, *SIDES)
+        self.observation_space = observation_space(self._view, self._image_side)
+        self._agent = agent
+        self._camera = _Camera(self._view, self._image_side, 1, agent)
+        self._reward = as_reward(reward)
         self._random = np.random.default_rng()
         self._window = None
         self._worlds = None
@@ -68,7 +140,8 @@ class Arena:
         self.seed = 0
         self.scene = None
         self.observations = np.zeros((1, 2, OBSERVATION_SIZE), dtype=np.float32)
-        self.rewards = np.zeros((1, 2))
+        self._equation_1 = np.zeros((1, 2))
+        self.rewards = None
         self.achieved = np.zeros((1, 2), dtype=bool)
 
     def __getstate__(self):
@@ -87,19 +160,60 @@ class Arena:
         """
         self.check_open()
         options = read_options(options, ("scene",))
-        source = as_source(options["scene"]) if "scene" in options else self._source
+        source = as_source(options["scene"]) if "scene" in options else self.pool or self._source
         if seed is not None:
             self._random = np.random.default_rng(seed_of(seed))
         self.seed = int(self._random.integers(2**63))
         self.scene = source(self.seed)
-        if self._worlds is None:
-            self._worlds = _native.Worlds([self.scene], self._engine, self._omniscient, 1)
-        else:
-            self._worlds.reset(0, self.scene)
+        self._put(self.scene)
         self.steps = 0
+        self._look()
+
+    def _put(self, scene):
+        """Puts a scene at its start into the world."""
+        if self._worlds is None:
+            self._worlds = _native.Worlds([scene], self.engine, self._view.startswith("state"), 1)
+        else:
+            self._worlds.reset(0, scene)
+
+    def _look(self):
         self._worlds.observe(self.observations, self.achieved)
+        self._camera.look(self._worlds)
         if self.render_mode == "human":
             self.render()
+
+    def get_state(self, over, partner):
+        """The :class:`EnvState` of the world.
+
+        Args:
+            over: whether the episode is over.
+            partner: the policy of the other agent; ``None`` without one.
+
+        Raises:
+            PhaseError: before :meth:`reset` and after :meth:`close`.
+        """
+        self.check_running()
+        random, pool = self._random.bit_generator.state, self.pool
+        return EnvState(self._worlds.save(0), self.seed, self.steps, over, random, saved_partner(partner), pool)
+
+    def set_state(self, state, partner):
+        """Goes back to a state.
+
+        Args:
+            state: an :class:`EnvState`.
+            partner: the policy of the other agent; ``None`` without one.
+
+        Raises:
+            PhaseError: for the state of an environment with other arguments, and after :meth:`close`.
+        """
+        self.check_open()
+        check_state(state, self.engine, partner)
+        if self._worlds is None:
+            self._put(state.scene)
+        self._worlds.restore(0, state.world)
+        self._random.bit_generator.state = state.random
+        self.scene, self.seed, self.steps, self.pool = state.scene, state.seed, state.steps, state.pool
+        self._look()
 
     def step(self, actions):
         """Lets both agents act for a step of 0.25 s.
@@ -111,7 +225,11 @@ class Arena:
             PhaseError: for an invalid action, before :meth:`reset` and after :meth:`close`.
         """
         self.check_running()
-        self._worlds.step(np.array([actions], dtype=np.int64), self.observations, self.rewards, self.achieved)
+        actions = np.array([actions], dtype=np.int64)
+        self._worlds.step(actions, self.observations, self._equation_1, self.achieved)
+        step = Transition(self._worlds, self._agent, actions, self._equation_1, self.achieved)
+        self.rewards = rewarded(self._reward, step, 2 if self._agent is None else 1)
+        self._camera.look(self._worlds)
         self.steps += 1
         if self.render_mode == "human":
             self.render()
@@ -121,15 +239,20 @@ class Arena:
         """Whether the episode has reached its length."""
         return self.steps >= self.max_steps
 
-    def observation(self, agent):
-        """A copy of an agent's observation, (OBSERVATION_SIZE,) 32-bit floats."""
+    def vector(self, agent):
+        """A copy of what an agent observes as a vector, (OBSERVATION_SIZE,) 32-bit floats."""
         return self.observations[0, agent].copy()
 
-    @property
-    def bodies(self):
-        """The true state: (entities, 6), columns x, y (u), angle (rad), vx, vy (u/s), angular velocity (rad/s)."""
+    def observation(self, agent):
+        """A copy of a learner's observation, a vector or a picture."""
+        if self._camera.pictures is None:
+            return self.vector(agent)
+        return self._camera.pictures[0, agent if self._agent is None else 0].copy()
+
+    def state(self):
+        """The true state: (4, 6), columns x, y (u), angle (rad), vx, vy (u/s), angular velocity (rad/s); 0 for absent objects."""
         self.check_running()
-        return self._worlds.bodies(0)
+        return self._worlds.states()[0]
 
     def info(self, agent):
         """Whether the agent's goal and the other's hold in truth, which the agent need not know."""
@@ -199,6 +322,22 @@ class Arena:
             raise PhaseError("call reset before step, render and state")
 
 
+class _Camera:
+    """The pictures that learners of some worlds are given, if they are given any."""
+
+    def __init__(self, view, side, worlds, agent):
+        self.pictures = None
+        if view.endswith("image"):
+            self._renderer, self._whole = _native.Renderer(side), view == "state_image"
+            self._agents = [0, 1] if agent is None else [agent]
+            self.pictures = np.zeros((worlds, len(self._agents), side, side, 3), dtype=np.uint8)
+
+    def look(self, worlds, chosen=None):
+        """Draws all worlds, or those that are chosen, anew."""
+        if self.pictures is not None:
+            self._renderer.observe(worlds, self._agents, self._whole, self.pictures, chosen)
+
+
 def read_options(options, known):
     """The options of a reset as a dict.
 
@@ -239,7 +378,7 @@ def as_policy(partner):
         partner = copy.deepcopy(partner)
     if callable(partner):
         return partner
-    raise PhaseError(f"a partner is {', '.join(named)}, or a function of the observation, not {partner!r}")
+    raise PhaseError(f"partner must be one of {', '.join(named)}, or a policy, not {partner!r}")
 
 
 def _makes_policies(function):
@@ -266,11 +405,15 @@ class PhaseParallelEnv(pettingzoo.ParallelEnv):
     Args:
         scenes: a scene, a kind of event, ``"preset:phase-500"``, a list of scenes, a function of a seed, or ``None`` for sampled scenes
             of all kinds (:func:`phase_events.scenes.as_source`).
-        observation: ``view``, what agents see and feel, or ``state``, everything.
+        observation: ``view``, what agents see and feel, or ``state``, everything, as vectors; ``image``, a picture of what the agent
+            sees, in which cells out of sight are dimmed and bodies that are not observed left out, or ``state_image``, a picture of
+            everything. Pictures show neither goals nor attitudes.
+        image_side: the side of a picture that is an observation (pixels), 64 to 2000.
+        reward: ``equation_1``, ``progress``, or a function (:mod:`phase_events.rewards`).
         engine: ``world`` (rapier2d) or ``forward`` (the kernel that minds plan in: faster).
         max_steps: steps after which an episode is truncated.
         render_mode: ``None``, ``rgb_array`` or ``human``.
-        side: the side of a picture (pixels), 64 to 2000.
+        side: the side of a picture of :meth:`render` (pixels), 64 to 2000.
 
     Raises:
         PhaseError: for invalid arguments, actions and scenes, and for any use after :meth:`close`.
@@ -283,12 +426,23 @@ class PhaseParallelEnv(pettingzoo.ParallelEnv):
         "render_fps": STEPS_PER_SECOND,
     }
 
-    def __init__(self, scenes=None, *, observation="view", engine="world", max_steps=100, render_mode=None, side=480):
-        self._arena = Arena(scenes, engine, observation, max_steps, render_mode, side)
+    def __init__(
+        self,
+        scenes=None,
+        *,
+        observation="view",
+        image_side=64,
+        reward="equation_1",
+        engine="world",
+        max_steps=100,
+        render_mode=None,
+        side=480,
+    ):
+        self._arena = Arena(scenes, engine, observation, image_side, reward, max_steps, render_mode, side, None)
         self.render_mode = render_mode
         self.possible_agents = list(AGENTS)
         self.agents = []
-        self.observation_spaces = {agent: observation_space() for agent in AGENTS}
+        self.observation_spaces = {agent: copy.deepcopy(self._arena.observation_space) for agent in AGENTS}
         self.action_spaces = {agent: spaces.Discrete(len(ACTIONS)) for agent in AGENTS}
         self.state_space = spaces.Box(-np.inf, np.inf, (4, 6), np.float32)
 
@@ -315,23 +469,42 @@ class PhaseParallelEnv(pettingzoo.ParallelEnv):
 
         Args:
             seed: a whole number from 0 to 2**64 - 1 from which this and all later episodes follow; ``None`` goes on drawing.
-            options: ``{"scene": …}`` gives the scene of this episode. Others have no effect, of which a warning says so: PettingZoo's
-                tests of conformance want them to be taken.
+            options: ``{"scene": …}`` gives the scene of this episode. ``{"options": 1}``, which PettingZoo's test of conformance passes,
+                has no effect.
 
         Returns:
             the observations and the infos, dicts from ``agent_0`` and ``agent_1``. An info has ``goal_holds`` and
             ``other_goal_holds``, which are the truth.
 
         Raises:
-            PhaseError: for an invalid seed or scene, and after :meth:`close`.
+            PhaseError: for an invalid seed, scene or option, and after :meth:`close`.
         """
-        if isinstance(options, Mapping):
-            unknown = [name for name in options if name != "scene"]
-            if unknown:
-                warnings.warn(f"the option {unknown[0]!r} has no effect", stacklevel=2)
-            options = {name: value for name, value in options.items() if name not in unknown}
-        self._arena.reset(seed, options)
+        self._arena.reset(seed, None if options == {"options": 1} else options)
         self.agents = list(AGENTS)
+        return self._by_agent(self._arena.observation), self._by_agent(self._arena.info)
+
+    def get_state(self):
+        """Saves the episode: an :class:`EnvState`.
+
+        Raises:
+            PhaseError: before :meth:`reset` and after :meth:`close`.
+        """
+        return self._arena.get_state(not self.agents, None)
+
+    def set_state(self, state):
+        """Goes back to a state; from there all goes on as it did, bit for bit, later episodes included.
+
+        Args:
+            state: what :meth:`get_state` returned, also in another environment that was made with the same arguments.
+
+        Returns:
+            observations and infos, as of :meth:`reset`.
+
+        Raises:
+            PhaseError: for the state of an environment with other arguments, and after :meth:`close`.
+        """
+        self._arena.set_state(state, None)
+        self.agents = [] if state.over else list(AGENTS)
         return self._by_agent(self._arena.observation), self._by_agent(self._arena.info)
 
     def step(self, actions):
@@ -362,7 +535,7 @@ class PhaseParallelEnv(pettingzoo.ParallelEnv):
         truncated = arena.truncated
         answer = (
             self._by_agent(arena.observation),
-            {agent: float(arena.rewards[0, k]) for k, agent in enumerate(AGENTS)},
+            {agent: float(arena.rewards[k]) for k, agent in enumerate(AGENTS)},
             dict.fromkeys(AGENTS, False),
             dict.fromkeys(AGENTS, truncated),
             self._by_agent(arena.info),
@@ -373,10 +546,7 @@ class PhaseParallelEnv(pettingzoo.ParallelEnv):
 
     def state(self):
         """The true state: (4, 6), columns x, y (u), angle (rad), vx, vy (u/s), angular velocity (rad/s); 0 for absent objects."""
-        bodies = self._arena.bodies
-        state = np.zeros((4, 6), dtype=np.float32)
-        state[: len(bodies)] = bodies
-        return state
+        return self._arena.state()
 
     def render(self):
         """A picture (side, side, 3), or a frame in a window."""
@@ -399,7 +569,7 @@ class PhaseEnv(gymnasium.Env):
     >>> observation, reward, terminated, truncated, info = env.step(env.action_space.sample())
 
     Args:
-        scenes, observation, engine, max_steps, render_mode, side: as of :class:`PhaseParallelEnv`.
+        scenes, observation, image_side, reward, engine, max_steps, render_mode, side: as of :class:`PhaseParallelEnv`.
         agent: which agent is the learner's, 0 or 1.
         partner: ``phase`` (a mind with the paper's settings), ``heuristic``, ``random``, ``still``, or a policy, such as
             ``Mind(parameters={"simulations": 100})`` or ``ReplayPolicy(event)``. One with ``reset`` is copied; policies that share
@@ -421,16 +591,18 @@ class PhaseEnv(gymnasium.Env):
         agent=0,
         partner="phase",
         observation="view",
+        image_side=64,
+        reward="equation_1",
         engine="world",
         max_steps=100,
         render_mode=None,
         side=480,
     ):
         self._agent = whole("agent", agent, 0, 1)
-        self._arena = Arena(scenes, engine, observation, max_steps, render_mode, side)
+        self._arena = Arena(scenes, engine, observation, image_side, reward, max_steps, render_mode, side, self._agent)
         self._partner = as_policy(partner)
         self.render_mode = render_mode
-        self.observation_space = observation_space()
+        self.observation_space = self._arena.observation_space
         self.action_space = spaces.Discrete(len(ACTIONS))
 
     @property
@@ -464,6 +636,37 @@ class PhaseEnv(gymnasium.Env):
             self._partner.reset(arena.scene, 1 - self._agent, arena.seed)
         return arena.observation(self._agent), arena.info(self._agent)
 
+    def state(self):
+        """The true state: (4, 6), columns x, y (u), angle (rad), vx, vy (u/s), angular velocity (rad/s); 0 for absent objects."""
+        return self._arena.state()
+
+    def get_state(self):
+        """Saves the episode and the partner's memory: an :class:`EnvState`.
+
+        Raises:
+            PhaseError: before :meth:`reset` and after :meth:`close`.
+        """
+        return self._arena.get_state(self._arena.truncated, self._partner)
+
+    def set_state(self, state):
+        """Goes back to a state; from there all goes on as it did, bit for bit, the partner and later episodes included.
+
+        ``partner`` is another object afterwards. Spaces keep their own random numbers.
+
+        Args:
+            state: what :meth:`get_state` returned, also in another environment that was made with the same arguments.
+
+        Returns:
+            the learner's observation and its info, as of :meth:`reset`.
+
+        Raises:
+            PhaseError: for the state of an environment with other arguments, and after :meth:`close`.
+        """
+        self._arena.set_state(state, self._partner)
+        if state.partner is not None:
+            self._partner = copy.deepcopy(state.partner)
+        return self._arena.observation(self._agent), self._arena.info(self._agent)
+
     def step(self, action):
         """Lets the learner and its partner act at the same time, for a step of 0.25 s.
 
@@ -480,10 +683,10 @@ class PhaseEnv(gymnasium.Env):
         arena.check_running()
         actions = [0, 0]
         actions[agent] = as_action(action)
-        actions[1 - agent] = as_action(self._partner(arena.observation(1 - agent)))
+        actions[1 - agent] = as_action(self._partner(arena.vector(1 - agent)))
         arena.step(actions)
         info = dict(arena.info(agent), partner_action=actions[1 - agent])
-        return arena.observation(agent), float(arena.rewards[0, agent]), False, arena.truncated, info
+        return arena.observation(agent), float(arena.rewards[0]), False, arena.truncated, info
 
     def render(self):
         """A picture (side, side, 3), or a frame in a window."""

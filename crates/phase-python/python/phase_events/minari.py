@@ -22,7 +22,7 @@ def export(events, dataset_id, *, observation="view"):
         events: simulated events of one engine; their actions are replayed in it.
         dataset_id: name and version, such as ``phase/demo-v0``; the datasets are ``phase/demo-agent0-v0`` and ``phase/demo-agent1-v0``,
             in Minari's folder (``MINARI_DATASETS_PATH``).
-        observation: ``view``, what the agent sees and feels, or ``state``, everything.
+        observation: as of :class:`~phase_events.env.PhaseParallelEnv`.
 
     Returns:
         both datasets, as ``minari.load_dataset`` loads them. Every episode has the event's id, kind, relation and scene, and the

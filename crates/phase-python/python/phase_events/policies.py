@@ -53,6 +53,8 @@ class Mind:
 
     def __init__(self, scene=None, agent=0, seed=0, parameters=None):
         self._parameters = None if parameters is None else to_json("parameters", parameters)
+        if self._parameters is not None:
+            _native.Mind.check(self._parameters)
         self._mind = None
         if scene is not None:
             self.reset(scene, agent, seed)

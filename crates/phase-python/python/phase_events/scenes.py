@@ -79,7 +79,7 @@ def as_source(scenes):
     if callable(scenes):
         return _Made(scenes)
     if isinstance(scenes, str) and not scenes.lstrip().startswith("{"):
-        raise PhaseError(f"scenes are {', '.join(KINDS)}, preset:NAME, a file of a preset, or scenes, not {scenes!r}")
+        raise PhaseError(f"kind must be one of {', '.join(KINDS)}, not {scenes!r}; scenes may also be preset:NAME, a file of a preset, or scenes")
     if isinstance(scenes, (list, tuple)):
         if not scenes:
             raise PhaseError("the list of scenes is empty")

@@ -1,5 +1,6 @@
 """Many worlds at once, stepped in one call, as a Gymnasium vector environment. It needs ``phase-events[env]``."""
 
+import copy as copying
 import os
 
 import gymnasium
@@ -11,9 +12,21 @@ from gymnasium.vector.utils import batch_space
 from . import _native
 from ._check import MOST_STEPS, as_action, choice, seed_of, whole
 from ._native import ACTIONS, OBSERVATION_SIZE, PhaseError
-from .env import ENGINES, STEPS_PER_SECOND, VIEWS, as_policy, observation_space, read_options
+from .env import (
+    ENGINES,
+    STEPS_PER_SECOND,
+    VIEWS,
+    EnvState,
+    _Camera,
+    as_policy,
+    check_state,
+    observation_space,
+    read_options,
+    saved_partner,
+)
 from .events import SIDES
 from .policies import Mind
+from .rewards import Transition, as_reward, rewarded
 from .scenes import as_source
 
 MOST_WORLDS = 65_536
@@ -47,7 +60,7 @@ class PhaseVectorEnv(gymnasium.vector.VectorEnv):
         partner: drives the other agent: as of :class:`~phase_events.env.PhaseEnv`.
         pool: the number of different scenes, drawn once after every reset with a seed, of which each episode has one; ``None`` draws
             a scene for every episode.
-        observation, engine, max_steps, side: as of :class:`~phase_events.env.PhaseParallelEnv`.
+        observation, image_side, reward, engine, max_steps, side: as of :class:`~phase_events.env.PhaseParallelEnv`.
         threads: the number of worlds that are stepped, and of minds that decide, at once, 1 to 1024; ``None`` for one a core. Results
             do not depend on it.
         autoreset: ``next_step`` (the step after the last one of an episode begins the next, its action is ignored), ``same_step``
@@ -71,6 +84,8 @@ class PhaseVectorEnv(gymnasium.vector.VectorEnv):
         partner="phase",
         pool=None,
         observation="view",
+        image_side=64,
+        reward="equation_1",
         engine="world",
         max_steps=100,
         threads=None,
@@ -91,16 +106,20 @@ class PhaseVectorEnv(gymnasium.vector.VectorEnv):
         cores = min(os.cpu_count() or 1, MOST_THREADS)
         self._worlds_count, self._copy = worlds, bool(copy)
         self._agent = None if agent is None else whole("agent", agent, 0, 1)
-        self._source, self._pool = as_source(scenes), None
+        # Where each world's scenes come from once a pool is drawn.
+        self._source, self._pools = as_source(scenes), [None] * worlds
         self._pool_size = None if pool is None else whole("pool", pool, 1, MOST_POOL)
-        self._omniscient = choice("observation", observation, VIEWS) == "state"
+        self._observes = choice("observation", observation, VIEWS)
+        self._reward = as_reward(reward)
         self._engine = choice("engine", engine, ENGINES)
         self._threads = cores if threads is None else whole("threads", threads, 1, MOST_THREADS)
         self._max_steps = whole("max_steps", max_steps, 1, MOST_STEPS)
         self._renderer = _native.Renderer(whole("side", side, *SIDES))
         self.render_mode = render_mode
         self.num_envs = worlds * (2 if agent is None else 1)
-        self.single_observation_space = observation_space()
+        image_side = whole("image_side", image_side, *SIDES)
+        self._camera = _Camera(self._observes, image_side, worlds, self._agent)
+        self.single_observation_space = observation_space(self._observes, image_side)
         self.single_action_space = spaces.Discrete(len(ACTIONS))
         self.observation_space = batch_space(self.single_observation_space, self.num_envs)
         self.action_space = batch_space(self.single_action_space, self.num_envs)
@@ -109,11 +128,11 @@ class PhaseVectorEnv(gymnasium.vector.VectorEnv):
         self._minds_alone = bool(self._partners) and all(isinstance(partner, Mind) for partner in self._partners)
         self._randoms = [np.random.default_rng() for _ in range(worlds)]
         self._worlds, self._scenes, self._closed = None, [None] * worlds, False
-        self._steps = np.zeros(worlds, dtype=np.int64)
+        self._steps, self._seeds = np.zeros(worlds, dtype=np.int64), [0] * worlds
         self._over = np.zeros(worlds, dtype=bool)
         self._actions = np.zeros((worlds, 2), dtype=np.int64)
         self._observations = np.zeros((worlds, 2, OBSERVATION_SIZE), dtype=np.float32)
-        self._rewards = np.zeros((worlds, 2))
+        self._equation_1 = np.zeros((worlds, 2))
         self._achieved = np.zeros((worlds, 2), dtype=bool)
 
     def reset(self, *, seed=None, options=None):
@@ -126,7 +145,7 @@ class PhaseVectorEnv(gymnasium.vector.VectorEnv):
                 true an episode begins. ``None`` for neither.
 
         Returns:
-            observations (num_envs, OBSERVATION_SIZE), and infos with ``goal_holds`` and ``other_goal_holds`` (num_envs,) and, beside
+            observations (num_envs, …), and infos with ``goal_holds`` and ``other_goal_holds`` (num_envs,) and, beside
             each, ``_goal_holds``, where it was set now.
 
         Raises:
@@ -136,9 +155,9 @@ class PhaseVectorEnv(gymnasium.vector.VectorEnv):
         options = read_options(options, ("scene", "reset_mask"))
         source = as_source(options["scene"]) if "scene" in options else None
         begun = self._masked(options["reset_mask"]) if "reset_mask" in options else np.arange(self._worlds_count)
-        seeds = self._seeds(seed)
-        if self._pool_size is not None and (self._pool is None or seeds[0] is not None):
-            self._pool = _Pool(self._source, self._pool_size, seeds[0])
+        seeds = self._read_seeds(seed)
+        if self._pool_size is not None and (self._pools[0] is None or seeds[0] is not None):
+            self._pools = [_Pool(self._source, self._pool_size, seeds[0])] * self._worlds_count
         for world in begun:
             if seeds[world] is not None:
                 self._randoms[world] = np.random.default_rng(seeds[world])
@@ -152,7 +171,7 @@ class PhaseVectorEnv(gymnasium.vector.VectorEnv):
             actions: (num_envs,) whole numbers, indices of ``ACTIONS``.
 
         Returns:
-            observations (num_envs, OBSERVATION_SIZE), rewards (num_envs,), terminations (always false), truncations, infos: as those of
+            observations (num_envs, …), rewards (num_envs,), terminations (always false), truncations, infos: as those of
             :meth:`reset`, and with ``partner_action`` if there is a partner.
 
         Raises:
@@ -172,16 +191,20 @@ class PhaseVectorEnv(gymnasium.vector.VectorEnv):
         if self._autoreset == AutoresetMode.DISABLED and self._over.any():
             world = np.flatnonzero(self._over)[0]
             raise PhaseError(f"the episode of world {world} is over: reset it, with options={{'reset_mask': …}}")
-        begun, going = np.flatnonzero(self._over), np.flatnonzero(~self._over)
+        was_over = self._over.copy()
+        begun, going = np.flatnonzero(was_over), np.flatnonzero(~was_over)
         if self._agent is None:
             self._actions[:] = actions.reshape(-1, 2)
         else:
             self._actions[:, self._agent] = actions
             self._actions[going, 1 - self._agent] = self._partner_actions(going)
-        self._worlds.step(self._actions, self._observations, self._rewards, self._achieved)
+        self._worlds.step(self._actions, self._observations, self._equation_1, self._achieved)
+        step = Transition(self._worlds, self._agent, self._actions, self._equation_1, self._achieved)
+        rewards = rewarded(self._reward, step, self.num_envs)
+        self._camera.look(self._worlds, going.tolist())
         self._steps += 1
         self._restart(begun)
-        self._rewards[begun] = 0
+        rewards[self._rows(was_over)] = 0
         truncated = self._steps >= self._max_steps
         self._over = truncated.copy()
         everywhere = np.arange(self._worlds_count)
@@ -196,8 +219,65 @@ class PhaseVectorEnv(gymnasium.vector.VectorEnv):
             infos = dict(self._infos(everywhere, np.flatnonzero(~truncated)), **last)
         else:
             infos = self._infos(everywhere, going)
-        rewards = self._rewards.reshape(-1) if self._agent is None else self._rewards[:, self._agent]
-        return self._observed(), rewards.copy(), np.zeros(self.num_envs, dtype=bool), self._rows(truncated), infos
+        return self._observed(), rewards, np.zeros(self.num_envs, dtype=bool), self._rows(truncated), infos
+
+    def get_state(self):
+        """Saves all worlds with their partners: a list of one :class:`~phase_events.env.EnvState` a world.
+
+        Raises:
+            PhaseError: before :meth:`reset` and after ``close``.
+        """
+        self._check_running()
+        return [
+            EnvState(
+                self._worlds.save(world),
+                self._seeds[world],
+                int(self._steps[world]),
+                bool(self._over[world]),
+                self._randoms[world].bit_generator.state,
+                saved_partner(self._partners[world]) if self._partners else None,
+                self._pools[world],
+            )
+            for world in range(self._worlds_count)
+        ]
+
+    def set_state(self, states, worlds=None):
+        """Goes back to states; from there all goes on as it did, bit for bit, partners and later episodes included.
+
+        Args:
+            states: one :class:`~phase_events.env.EnvState` a world, also of a :class:`~phase_events.env.PhaseEnv` that was made with the
+                same arguments, or a single one for all these worlds.
+            worlds: the numbers of the worlds; ``None`` for all.
+
+        Returns:
+            observations and infos, as of :meth:`reset` of these worlds.
+
+        Raises:
+            PhaseError: for another number of states, for states of an environment with other arguments, none of which is restored then,
+                and after ``close``.
+        """
+        self._check_open()
+        if worlds is None:
+            worlds = range(self._worlds_count)
+        elif self._worlds is None:
+            raise PhaseError("worlds: the first states are of all worlds")
+        worlds = [whole("a world", world, 0, self._worlds_count - 1) for world in worlds]
+        states = [states] * len(worlds) if isinstance(states, EnvState) else states
+        if not isinstance(states, (list, tuple)) or len(states) != len(worlds):
+            raise PhaseError(f"states are a list of {len(worlds)}, one a world, or a single one")
+        for world, state in zip(worlds, states, strict=True):
+            check_state(state, self._engine, self._partners[world] if self._partners else None)
+        if self._worlds is None:
+            self._worlds = self._make([state.scene for state in states])
+        for world, state in zip(worlds, states, strict=True):
+            self._worlds.restore(world, state.world)
+            self._scenes[world], self._seeds[world], self._pools[world] = state.scene, state.seed, state.pool
+            self._steps[world], self._over[world] = state.steps, state.over
+            self._randoms[world].bit_generator.state = state.random
+            if state.partner is not None:
+                self._partners[world] = copying.deepcopy(state.partner)
+        self._look(worlds)
+        return self._observed(), self._infos(np.unique(worlds))
 
     def scene(self, world):
         """The :class:`Scene` of a world's episode.
@@ -238,7 +318,7 @@ class PhaseVectorEnv(gymnasium.vector.VectorEnv):
         """Refuses every later use; ``close`` calls it."""
         self._closed = True
 
-    def _seeds(self, seed):
+    def _read_seeds(self, seed):
         """The seed of each world, or ``None``."""
         if seed is None:
             return [None] * self._worlds_count
@@ -266,19 +346,26 @@ class PhaseVectorEnv(gymnasium.vector.VectorEnv):
         """Begins an episode in some worlds, as ``PhaseEnv`` does."""
         if not len(worlds):
             return
-        source = source or self._pool or self._source
         seeds = {world: int(self._randoms[world].integers(2**63)) for world in worlds}
-        scenes = {world: source(seed) for world, seed in seeds.items()}
+        scenes = {world: (source or self._pools[world] or self._source)(seed) for world, seed in seeds.items()}
         for world, scene in scenes.items():
             self._scenes[world] = scene
         if self._worlds is None:
-            self._worlds = _native.Worlds(self._scenes, self._engine, self._omniscient, self._threads)
+            self._worlds = self._make(self._scenes)
         for world, scene in scenes.items():
             self._worlds.reset(int(world), scene)
-            self._steps[world], self._over[world] = 0, False
+            self._steps[world], self._over[world], self._seeds[world] = 0, False, seeds[world]
             if self._partners and hasattr(self._partners[world], "reset"):
                 self._partners[world].reset(scene, 1 - self._agent, seeds[world])
-        self._worlds.observe(self._observations, self._achieved, [int(world) for world in worlds])
+        self._look([int(world) for world in worlds])
+
+    def _make(self, scenes):
+        return _native.Worlds(scenes, self._engine, self._observes.startswith("state"), self._threads)
+
+    def _look(self, worlds):
+        """Observes some worlds anew."""
+        self._worlds.observe(self._observations, self._achieved, worlds)
+        self._camera.look(self._worlds, worlds)
 
     def _partner_actions(self, worlds):
         if not len(worlds):
@@ -294,6 +381,9 @@ class PhaseVectorEnv(gymnasium.vector.VectorEnv):
         return np.repeat(worlds, self.num_envs // self._worlds_count)
 
     def _view(self):
+        """The observations of the learners."""
+        if self._camera.pictures is not None:
+            return self._camera.pictures.reshape(self.num_envs, *self.single_observation_space.shape)
         if self._agent is None:
             return self._observations.reshape(self.num_envs, OBSERVATION_SIZE)
         return self._observations[:, self._agent]
