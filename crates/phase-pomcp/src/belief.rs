@@ -44,8 +44,12 @@ pub enum BeliefError {
     /// The updates may make no attempt.
     #[error("`attempts` is 0; an update has to advance at least one particle")]
     ZeroAttempts,
-    /// No particle led to the observation, and the model knows no other.
-    #[error("the observation contradicts all particles: {attempts} attempts, and `recover` gave none")]
+    /// No particle led to the observation, and the model knows no other. States of small probability die out
+    /// among few particles: what is true may be one of them.
+    #[error(
+        "the observation contradicts all particles ({attempts} attempts), and `BeliefModel::recover` gave none; \
+         define it, or use more particles"
+    )]
     Contradicted {
         /// The number of particles advanced.
         attempts: usize,

@@ -126,7 +126,22 @@ impl GenerativeModel for Tag {
     }
 }
 
-impl BeliefModel for Tag {}
+impl BeliefModel for Tag {
+    /// Squares on which the opponent seldom is die out among the particles, and one day it is there. Then its
+    /// square is known if the robot sees it, and otherwise may be any other.
+    fn recover(
+        &self,
+        action: usize,
+        &(robot, sees): &([i8; 2], bool),
+        random: &mut impl Rng,
+    ) -> Option<Chase> {
+        let mut opponent = robot;
+        while !sees && opponent == robot {
+            opponent = self.square(random);
+        }
+        Some(Chase { robot, opponent, last: Some(action), sees })
+    }
+}
 
 impl Problem for Tag {
     const SETTINGS: PomcpSettings = PomcpSettings {
