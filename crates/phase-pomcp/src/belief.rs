@@ -3,7 +3,7 @@
 use rand::{Rng, RngExt};
 use thiserror::Error;
 
-use crate::GenerativeModel;
+use crate::{GenerativeModel, ObservationModel};
 
 /// Knowledge of a problem's hidden state beside one step of it, which keeps a particle belief alive. A
 /// problem without such knowledge has an empty `impl`.
@@ -35,7 +35,7 @@ pub trait BeliefModel: GenerativeModel {
 }
 
 /// Why a belief could not be made or updated. A failed update leaves the belief as it was.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
+#[derive(Debug, Clone, Copy, PartialEq, Error)]
 #[non_exhaustive]
 pub enum BeliefError {
     /// There is no particle to begin with.
@@ -53,6 +53,12 @@ pub enum BeliefError {
     Contradicted {
         /// The number of particles advanced.
         attempts: usize,
+    },
+    /// A likelihood is negative, infinite or NaN, or the sum of all is infinite.
+    #[error("`likelihood` said {likelihood}; it must be finite and not negative, as must the sum of all")]
+    InvalidLikelihood {
+        /// The likelihood that the model returned.
+        likelihood: f64,
     },
 }
 
@@ -138,6 +144,74 @@ impl<S: Clone> ParticleBelief<S> {
                 self.next.push(particle);
             }
         }
+        self.complete(model, action, observation, attempts, random)
+    }
+
+    /// Updates the belief where observations seldom repeat, such as real numbers: every particle is advanced
+    /// once and weighted by the likelihood of the observation, 0 if the problem ended, and as many as before
+    /// are drawn by weight, one from each of as many equal parts of the sum (stratified resampling). Then
+    /// each is reinvigorated.
+    ///
+    /// In the result, `attempts` is the number of particles, and `accepted` the number of those that were
+    /// drawn at least once.
+    ///
+    /// # Errors
+    /// [`BeliefError::Contradicted`] if no particle has a likelihood above 0 and the model makes none;
+    /// [`BeliefError::InvalidLikelihood`].
+    pub fn update_weighted<M>(
+        &mut self,
+        model: &M,
+        action: usize,
+        observation: &M::Observation,
+        random: &mut impl Rng,
+    ) -> Result<BeliefUpdate, BeliefError>
+    where
+        M: BeliefModel<State = S> + ObservationModel,
+    {
+        let attempts = self.particles.len();
+        let mut advanced = Vec::with_capacity(attempts);
+        let mut sum = 0.0;
+        for particle in &self.particles {
+            let mut particle = particle.clone();
+            let outcome = model.step(&mut particle, action, random);
+            let weight =
+                if outcome.terminal { 0.0 } else { model.likelihood(action, &particle, observation) };
+            sum += weight;
+            if !(0.0..=f64::MAX).contains(&weight) || sum.is_infinite() {
+                return Err(BeliefError::InvalidLikelihood { likelihood: weight });
+            }
+            advanced.push((particle, sum));
+        }
+        self.next.clear();
+        let mut accepted = 0;
+        if sum > 0.0 {
+            let mut last = None;
+            for k in 0..attempts {
+                let drawn = (k as f64 + random.random::<f64>()) / attempts as f64 * sum;
+                let index = advanced.partition_point(|&(_, below)| below <= drawn).min(attempts - 1);
+                accepted += usize::from(last != Some(index));
+                last = Some(index);
+                self.next.push(advanced[index].0.clone());
+            }
+        }
+        let update = self.complete(model, action, observation, attempts, random)?;
+        Ok(BeliefUpdate { accepted, ..update })
+    }
+
+    /// Makes the particles in `next` as many as before, or lets the model make them, reinvigorates them, and
+    /// takes them for the belief.
+    fn complete<M>(
+        &mut self,
+        model: &M,
+        action: usize,
+        observation: &M::Observation,
+        attempts: usize,
+        random: &mut impl Rng,
+    ) -> Result<BeliefUpdate, BeliefError>
+    where
+        M: BeliefModel<State = S>,
+    {
+        let count = self.particles.len();
         let accepted = self.next.len();
         if accepted == 0 {
             let recovered = (0..count).map_while(|_| model.recover(action, observation, random));

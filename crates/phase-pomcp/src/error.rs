@@ -28,6 +28,25 @@ pub enum PomcpError {
         /// The rejected tolerance.
         convergence: f64,
     },
+    /// The parameters of progressive widening are outside their ranges.
+    #[error("widening `factor` {factor} must be finite and positive, `exponent` {exponent} in 0..=1")]
+    InvalidWidening {
+        /// The rejected factor.
+        factor: f64,
+        /// The rejected exponent.
+        exponent: f64,
+    },
+    /// A likelihood is negative, infinite or NaN, or zero for an observation that was made in that state.
+    #[error(
+        "`likelihood` said {likelihood} after action {action}; it must be finite and not negative, and \
+         positive for what the state's own step observed"
+    )]
+    InvalidLikelihood {
+        /// The action taken.
+        action: usize,
+        /// The likelihood that the model returned.
+        likelihood: f64,
+    },
     /// There is no root particle.
     #[error("the belief has no particles; give at least one root state")]
     NoRoots,

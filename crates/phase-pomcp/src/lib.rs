@@ -39,7 +39,7 @@
 //!
 //! A generator is any of `rand` 0.10, here `rand_pcg`'s. `examples/tiger.rs` goes on to whole episodes, with
 //! a [`ParticleBelief`] between the real steps; `examples/anchors` measures returns on published problems,
-//! which docs/explanation/planners.md lists. Where not every action is possible everywhere, a model says so
+//! which docs/how-to/planning.md lists. Where not every action is possible everywhere, a model says so
 //! ([`GenerativeModel::is_legal`]).
 //!
 //! # Key design decision
@@ -51,9 +51,11 @@
 //! the tree twice.
 //!
 //! The trade-off: the model must return observations coarse enough for simulations to meet again, since the
-//! tree has no notion of similar observations; branches of an action are searched linearly, fine for dozens
-//! and slow for thousands; and a belief is updated by the model, not by the particles of a subtree as in
-//! POMCP, though a search can go on in the subtree ([`Pomcp::keep`]).
+//! tree has no notion of similar observations. Where they are real numbers, it says how likely they are
+//! ([`ObservationModel`]), and [`Pomcp::search_widened`] (POMCPOW) keeps weighted states in its branches.
+//! Branches of an action are searched linearly, fine for dozens and slow for thousands; and a belief is
+//! updated by the model, not by the particles of a subtree as in POMCP, though a search can go on in the
+//! subtree ([`Pomcp::keep`]).
 //!
 //! # Determinism
 //!
@@ -63,7 +65,8 @@
 //! # Deviations from the sources
 //!
 //! PUCT is undefined for actions never tried while the parent has no visits: here every action of a history
-//! is tried once, in random order, before they are compared. A search may end once it is decided, see
+//! is tried once, in random order, before they are compared; the same holds in POMCPOW, whose paper selects
+//! by UCB. A search may end once it is decided, see
 //! [`PomcpSettings::stop_when_decided`]. Values are mapped to 0..1 by the extremes in the
 //! tree before they are compared, see [`PomcpSettings::normalise_values`].
 
@@ -80,11 +83,13 @@ mod settings;
 mod simulation;
 mod tree;
 mod view;
+mod widening;
 
 pub use belief::{BeliefError, BeliefModel, BeliefUpdate, DEFAULT_ATTEMPTS, ParticleBelief};
 pub use decision::{ActionStatistics, Decision, SearchStatistics};
 pub use error::PomcpError;
-pub use model::{GenerativeModel, Transition};
+pub use model::{GenerativeModel, ObservationModel, Transition};
 pub use search::Pomcp;
 pub use settings::PomcpSettings;
 pub use view::{ActionView, HistoryView};
+pub use widening::Widening;

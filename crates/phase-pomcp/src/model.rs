@@ -10,13 +10,13 @@ use rand::{Rng, RngExt};
 /// The observation distinguishes the branches of the search tree, so it decides what the plan can react to.
 /// Keep it coarse: with a new branch for every simulation the tree never grows past its first level, and
 /// branches are searched linearly. `()` makes an open-loop tree, whose nodes branch on actions alone; the
-/// whole state makes a fully observed problem.
+/// whole state makes a fully observed problem. For real numbers, implement [`ObservationModel`] too.
 pub trait GenerativeModel {
     /// A state of the problem. It is copied once a simulation (with [`Clone::clone_from`]), so keep it small.
     type State: Clone;
 
     /// The agent's perception after a step.
-    type Observation: Eq;
+    type Observation: PartialEq;
 
     /// The number of actions, numbered `0..action_count()`. It must not change during a search.
     fn action_count(&self) -> usize;
@@ -94,6 +94,18 @@ pub trait GenerativeModel {
     fn value_estimate(&self, _state: &Self::State) -> f64 {
         0.0
     }
+}
+
+/// A problem that knows how likely its observations are.
+///
+/// [`Pomcp::search_widened`](crate::Pomcp::search_widened) and
+/// [`ParticleBelief::update_weighted`](crate::ParticleBelief::update_weighted) need it where observations
+/// seldom repeat, such as real numbers.
+pub trait ObservationModel: GenerativeModel {
+    /// The likelihood of `observation` where `action` led to the state `after`: a probability or a density,
+    /// or either times a factor that is the same for all states. Finite, zero or more, and above zero for an
+    /// observation that [`step`](GenerativeModel::step) made in that state.
+    fn likelihood(&self, action: usize, after: &Self::State, observation: &Self::Observation) -> f64;
 }
 
 /// The result of one step.

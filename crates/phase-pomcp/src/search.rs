@@ -5,8 +5,10 @@ use rand::{Rng, RngExt};
 use crate::puct::{ExplorationTable, ValueRange};
 use crate::simulation::{PathStep, Simulations};
 use crate::tree::{HistoryId, Tree};
+use crate::widening::{Branching, Distinct, Widened};
 use crate::{
-    ActionStatistics, Decision, GenerativeModel, HistoryView, PomcpError, PomcpSettings, SearchStatistics,
+    ActionStatistics, Decision, GenerativeModel, HistoryView, ObservationModel, PomcpError, PomcpSettings,
+    SearchStatistics, Widening,
 };
 
 /// A POMCP planner (Silver & Veness 2010) and the memory it searches in, over problems whose observations are
@@ -25,7 +27,7 @@ pub struct Pomcp<O> {
     path: Vec<PathStep>,
 }
 
-impl<O: Eq> Pomcp<O> {
+impl<O: PartialEq> Pomcp<O> {
     /// A planner that has not searched yet.
     ///
     /// # Errors
@@ -105,6 +107,51 @@ impl<O: Eq> Pomcp<O> {
     where
         M: GenerativeModel<Observation = O>,
     {
+        // The states that a kept part was made from are gone.
+        let remembers = self.tree.history_count() == 1 && model.is_deterministic() && roots.len() == 1;
+        self.run(model, roots, Distinct, remembers, random)
+    }
+
+    /// Finds the action as [`search`](Self::search) does, where observations seldom repeat, such as real
+    /// numbers: by POMCPOW (Sunberg & Kochenderfer 2018) with a finite set of actions.
+    ///
+    /// The first simulations of an action begin a branch for each observation; from then on, as `widening`
+    /// says, most go on in one of those branches. A branch keeps every state that was simulated there,
+    /// weighted by the likelihood of the branch's observation, and a simulation that comes there goes on with
+    /// one that is drawn by weight. So the branch stands for a belief, which becomes finer with its visits,
+    /// and the search does not take the state for known after a single observation. It keeps a copy of a
+    /// state for every step that it takes in the tree, which `search` does not.
+    ///
+    /// # Errors
+    /// As [`search`](Self::search), [`PomcpError::InvalidWidening`] and [`PomcpError::InvalidLikelihood`].
+    pub fn search_widened<M>(
+        &mut self,
+        model: &M,
+        roots: &[M::State],
+        widening: Widening,
+        random: &mut impl Rng,
+    ) -> Result<Decision, PomcpError>
+    where
+        M: ObservationModel<Observation = O>,
+    {
+        widening.validate()?;
+        self.tree.reset();
+        self.run(model, roots, Widened::new(widening), false, random)
+    }
+
+    /// Runs the simulations of a search from the tree as it is. `remembers`: whether steps in the tree are
+    /// computed once.
+    fn run<M>(
+        &mut self,
+        model: &M,
+        roots: &[M::State],
+        branching: impl Branching<M>,
+        remembers: bool,
+        random: &mut impl Rng,
+    ) -> Result<Decision, PomcpError>
+    where
+        M: GenerativeModel<Observation = O>,
+    {
         let root = roots.first().ok_or(PomcpError::NoRoots)?;
         let kept = self.tree.history_count() - 1;
         let action_count = checked_action_count(model, self.settings.simulations.saturating_add(kept))?;
@@ -117,9 +164,8 @@ impl<O: Eq> Pomcp<O> {
             action_count,
             discount,
             tree: &mut self.tree,
-            // The states that the kept part was made from are gone.
-            known: (kept == 0 && model.is_deterministic() && roots.len() == 1)
-                .then(|| vec![(root.clone(), 0.0)]),
+            branching,
+            known: remembers.then(|| vec![(root.clone(), 0.0)]),
             table: &mut self.table,
             range,
             weights: Vec::with_capacity(action_count),
@@ -158,7 +204,7 @@ struct Progress {
 
 impl Progress {
     /// Counts one more simulation, and says whether no more are needed.
-    fn is_over<O: Eq>(&mut self, settings: &PomcpSettings, tree: &Tree<O>) -> bool {
+    fn is_over<O: PartialEq>(&mut self, settings: &PomcpSettings, tree: &Tree<O>) -> bool {
         self.ended += 1;
         if settings.stop_when_decided && tree.is_decided(settings.simulations - self.ended) {
             return true;

@@ -5,15 +5,18 @@ use std::ops::ControlFlow;
 
 use crate::puct::{ExplorationTable, ValueRange};
 use crate::tree::{ActionId, HistoryId, Tree};
+use crate::widening::{Branching, Made};
 use crate::{GenerativeModel, PomcpError, PomcpSettings, Transition};
 
 /// State that the simulations of one search share.
-pub(crate) struct Simulations<'a, M: GenerativeModel> {
+pub(crate) struct Simulations<'a, M: GenerativeModel, B> {
     pub(crate) model: &'a M,
     pub(crate) settings: &'a PomcpSettings,
     pub(crate) action_count: usize,
     pub(crate) discount: f64,
     pub(crate) tree: &'a mut Tree<M::Observation>,
+    /// The rule by which observations become branches of the tree.
+    pub(crate) branching: B,
     /// The next state and reward of every history of the tree, for a deterministic model.
     pub(crate) known: Option<Vec<(M::State, f64)>>,
     pub(crate) table: &'a mut ExplorationTable,
@@ -39,7 +42,7 @@ pub(crate) struct PathStep {
 /// Returns up to this size can be averaged, and their differences taken, without overflow.
 const RETURN_LIMIT: f64 = f64::MAX / 4.0;
 
-impl<M: GenerativeModel> Simulations<'_, M> {
+impl<M: GenerativeModel, B: Branching<M>> Simulations<'_, M, B> {
     /// Runs one simulation from a root state to its end, and backs up its return.
     pub(crate) fn run(&mut self, state: &mut M::State, random: &mut impl Rng) -> Result<(), PomcpError> {
         self.path.clear();
@@ -83,9 +86,13 @@ impl<M: GenerativeModel> Simulations<'_, M> {
         if self.path.len() >= self.settings.horizon {
             return self.estimate(state).map(ControlFlow::Break);
         }
-        let (child, is_new) = self.tree.child(action, observation);
-        if !is_new {
-            return Ok(ControlFlow::Continue(child));
+        let made = Made { action: chosen, node: action, observation, reward };
+        let next = self.branching.next(self.model, self.tree, made, state, random)?;
+        if let Some(step) = self.path.last_mut() {
+            step.reward = next.reward;
+        }
+        if !next.is_new {
+            return Ok(ControlFlow::Continue(next.history));
         }
         if let Some(known) = &mut self.known {
             known.push((state.clone(), reward));

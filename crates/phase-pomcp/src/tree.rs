@@ -67,7 +67,7 @@ const NONE: u32 = u32::MAX;
 /// The prior of an action that must not be taken.
 const ILLEGAL: f64 = -1.0;
 
-impl<O: Eq> Tree<O> {
+impl<O: PartialEq> Tree<O> {
     /// A tree with an unvisited root.
     pub(crate) fn new() -> Self {
         Self { histories: vec![History::LEAF], actions: Vec::new(), branches: Vec::new() }
@@ -190,6 +190,22 @@ impl<O: Eq> Tree<O> {
         (HistoryId(child), true)
     }
 
+    /// Number of simulations that chose an action.
+    pub(crate) fn action_visits(&self, action: ActionId) -> u32 {
+        self.actions[action.0 as usize].visits
+    }
+
+    /// The histories after an action, the newest first.
+    pub(crate) fn histories_after(&self, action: ActionId) -> impl Iterator<Item = HistoryId> {
+        self.branches_of(&self.actions[action.0 as usize]).map(|branch| HistoryId(branch.child))
+    }
+
+    /// The observation that leads from an action to a history.
+    pub(crate) fn observation_of(&self, action: ActionId, history: HistoryId) -> Option<&O> {
+        let mut branches = self.branches_of(&self.actions[action.0 as usize]);
+        branches.find(|branch| branch.child == history.0).map(|branch| &branch.observation)
+    }
+
     /// The history added last after an action.
     pub(crate) fn newest_child(&self, action: ActionId) -> Option<HistoryId> {
         let branch = self.branches.get(self.actions[action.0 as usize].branch as usize)?;
@@ -199,8 +215,8 @@ impl<O: Eq> Tree<O> {
     /// The history that an observation after an action leads to, if it is in the tree.
     pub(crate) fn find(&self, history: HistoryId, action: usize, observation: &O) -> Option<HistoryId> {
         let node = &self.histories[history.index()];
-        let branches = self.branches_of(self.actions_of(node).get(action)?);
-        branches.into_iter().find(|branch| branch.observation == *observation).map(|it| HistoryId(it.child))
+        let mut branches = self.branches_of(self.actions_of(node).get(action)?);
+        branches.find(|branch| branch.observation == *observation).map(|it| HistoryId(it.child))
     }
 
     /// Makes a history the root, and drops everything that does not follow it. Statistics stay as they are.
@@ -250,15 +266,16 @@ impl<O: Eq> Tree<O> {
         let mut actions = Vec::new();
         let all = self.actions_of(node).iter().enumerate();
         for (action, of) in all.filter(|(_, of)| levels > 0 && of.is_legal() && is_shown(of.visits)) {
-            let branches = self.branches_of(of);
-            let branches =
-                branches.into_iter().filter(|branch| is_shown(self.histories[branch.child as usize].visits));
-            let mut branches: Vec<_> = branches
+            let mut branches: Vec<_> = self
+                .branches_of(of)
+                .filter(|branch| is_shown(self.histories[branch.child as usize].visits))
                 .map(|branch| {
                     let after = self.view(HistoryId(branch.child), levels - 1, least_visits);
                     (branch.observation.clone(), after)
                 })
                 .collect();
+            // The oldest first among equals.
+            branches.reverse();
             branches.sort_by_key(|(_, after)| std::cmp::Reverse(after.visits));
             let (visits, value, prior) = (of.visits as usize, of.value, of.prior);
             actions.push(ActionView { action, visits, value, prior, branches });
@@ -267,16 +284,14 @@ impl<O: Eq> Tree<O> {
         HistoryView { visits: node.visits as usize, actions }
     }
 
-    /// The branches of an action, in the order in which they were added.
-    fn branches_of(&self, action: &Action) -> Vec<&Branch<O>> {
-        let mut branches = Vec::new();
+    /// The branches of an action, the newest first.
+    fn branches_of(&self, action: &Action) -> impl Iterator<Item = &Branch<O>> {
         let mut next = action.branch;
-        while let Some(branch) = self.branches.get(next as usize) {
-            branches.push(branch);
+        core::iter::from_fn(move || {
+            let branch = self.branches.get(next as usize)?;
             next = branch.next;
-        }
-        branches.reverse();
-        branches
+            Some(branch)
+        })
     }
 
     /// Counts a visit of an action with return `value`, and returns the action's new mean.

@@ -1,6 +1,6 @@
 //! Whole episodes of a problem: a search at every step, and a particle belief between real steps.
 
-use phase_pomcp::{BeliefModel, ParticleBelief, Pomcp, PomcpSettings};
+use phase_pomcp::{BeliefError, BeliefModel, Decision, ParticleBelief, Pomcp, PomcpError, PomcpSettings};
 use phase_statistics::{mean, standard_error};
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64Mcg;
@@ -15,7 +15,7 @@ const LONGEST_EPISODE: usize = 100;
 const STANDARD_ERRORS: f64 = 1.96;
 
 /// A problem whose episodes can be simulated.
-pub(crate) trait Problem: BeliefModel {
+pub(crate) trait Problem: BeliefModel + Sized {
     /// The parameters of its searches.
     const SETTINGS: PomcpSettings;
 
@@ -24,6 +24,31 @@ pub(crate) trait Problem: BeliefModel {
 
     /// As `start`, for a particle of the initial belief of an agent that starts in `state`.
     fn imagine(&self, state: &Self::State, random: &mut impl Rng) -> Self::State;
+
+    /// A search, in the part of the tree that was kept if `reuse` is set.
+    fn decide(
+        &self,
+        pomcp: &mut Pomcp<Self::Observation>,
+        roots: &[Self::State],
+        reuse: bool,
+        random: &mut impl Rng,
+    ) -> Result<Decision, PomcpError> {
+        match reuse {
+            true => pomcp.search_on(self, roots, random),
+            false => pomcp.search(self, roots, random),
+        }
+    }
+
+    /// An update of the belief.
+    fn update(
+        &self,
+        belief: &mut ParticleBelief<Self::State>,
+        action: usize,
+        observation: &Self::Observation,
+        random: &mut impl Rng,
+    ) -> Result<(), BeliefError> {
+        belief.update(self, action, observation, random).map(drop)
+    }
 }
 
 /// What is simulated for a row of the table.
@@ -96,10 +121,7 @@ impl RowSettings {
         while episode.steps < LONGEST_EPISODE {
             let start = Instant::now();
             let roots = belief.particles();
-            let decision = match self.reuse {
-                true => pomcp.search_on(problem, roots, random)?,
-                false => pomcp.search(problem, roots, random)?,
-            };
+            let decision = problem.decide(&mut pomcp, roots, self.reuse, random)?;
             episode.seconds += start.elapsed().as_secs_f64();
             episode.simulations += decision.actions.iter().map(|action| action.visits).sum::<usize>() - kept;
             let outcome = problem.step(&mut state, decision.action, random);
@@ -109,7 +131,7 @@ impl RowSettings {
             if outcome.terminal {
                 break;
             }
-            belief.update(problem, decision.action, &outcome.observation, random)?;
+            problem.update(&mut belief, decision.action, &outcome.observation, random)?;
             if self.reuse {
                 kept = pomcp.keep(decision.action, &outcome.observation);
             }

@@ -10,6 +10,7 @@
 
 mod episodes;
 mod layouts;
+mod light_dark;
 mod rocksample;
 mod tag;
 mod tiger;
@@ -58,6 +59,10 @@ enum Name {
     #[value(name = "rocksample-15-15-random")]
     RockSample15Random,
     Tag,
+    /// Observations are real numbers, and branches widen progressively.
+    LightDark,
+    /// Every observation has a branch of its own.
+    LightDarkUnwidened,
 }
 
 fn main() -> Result<(), Box<dyn Error + Send + Sync>> {
@@ -113,5 +118,7 @@ fn row(name: Name, settings: &RowSettings) -> Result<Row, Box<dyn Error + Send +
         Name::RockSample15 => settings.row(|_| RockSample::new(&layouts::DESPOT_JL_15_15)),
         Name::RockSample15Random => settings.row(|random| RockSample::new(layouts::random(15, random))),
         Name::Tag => settings.row(|_| tag::Tag::new()),
+        Name::LightDark => settings.row(|_| light_dark::LightDark::new(true)),
+        Name::LightDarkUnwidened => settings.row(|_| light_dark::LightDark::new(false)),
     }
 }

@@ -12,3 +12,4 @@ mod returns;
 mod tiger;
 mod tiger_problem;
 mod view;
+mod widening;
