@@ -35,6 +35,27 @@ def test_learning_to_help(tmp_path):
     assert (tmp_path / "curve.png").stat().st_size > 1000
 
 
+def test_learning_with_stable_baselines3():
+    """It learns: from never being on the landmark to most of the 80 steps. And it is what the page shows."""
+    page = EXAMPLES.parents[2] / "docs/how-to/reinforcement-learning.md"
+    program = EXAMPLES / "learn_with_sb3.py"
+    assert program.read_text().partition('"""\n\n')[2].rstrip() in page.read_text()
+    pytest.importorskip("stable_baselines3", reason="stable-baselines3 is not installed")
+    done = subprocess.run([sys.executable, program, "25000"], capture_output=True, text=True, check=False, timeout=600)
+    assert done.returncode == 0, done.stderr
+    returns = [float(line.rsplit(" ", 1)[1]) for line in done.stdout.splitlines()]
+    assert returns[0] < 0 and returns[-1] > 50, done.stdout
+
+
+def test_throughput():
+    """Every row is measured."""
+    command = [sys.executable, EXAMPLES / "steps_per_second.py", "--seconds", "0.01", "--only", "learning"]
+    done = subprocess.run(command, capture_output=True, text=True, check=False, timeout=300)
+    assert done.returncode == 0, done.stderr
+    measured = json.loads(done.stdout.splitlines()[-1])
+    assert len(measured) == 14 and all(number > 0 for number in measured.values())
+
+
 def test_the_tutorial(tmp_path):
     """The notebook runs from its first to its last cell."""
     pytest.importorskip("nbmake")
