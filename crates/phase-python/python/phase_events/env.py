@@ -330,7 +330,10 @@ class _Camera:
         if view.endswith("image"):
             self._renderer, self._whole = _native.Renderer(side), view == "state_image"
             self._agents = [0, 1] if agent is None else [agent]
-            self.pictures = np.zeros((worlds, len(self._agents), side, side, 3), dtype=np.uint8)
+            try:
+                self.pictures = np.zeros((worlds, len(self._agents), side, side, 3), dtype=np.uint8)
+            except MemoryError as error:
+                raise PhaseError(f"image_side: the pictures of {worlds} worlds do not fit in memory: {error}") from error
 
     def look(self, worlds, chosen=None):
         """Draws all worlds, or those that are chosen, anew."""
