@@ -205,21 +205,8 @@ impl Worlds {
         Ok(())
     }
 
-    /// The bodies of a world: (entities, 6), columns x, y (u), angle (rad), vx, vy (u/s), angular velocity
-    /// (rad/s).
-    fn bodies<'py>(slf: &Bound<'py, Self>, world: i64) -> PyResult<Bound<'py, PyArray2<f32>>> {
-        let this = lent(slf)?;
-        let episode = this.episode(world)?;
-        let rows: Vec<Vec<f32>> = episode
-            .physics()
-            .entities()
-            .map(|entity| row_of(episode.state().body(entity)).to_vec())
-            .collect();
-        PyArray2::from_vec2(slf.py(), &rows).map_err(raise)
-    }
-
-    /// The bodies of all worlds, now or before the last step: (N, 4, 6), columns as of `bodies`; 0 for absent
-    /// objects.
+    /// The bodies of all worlds, now or before the last step: (N, 4, 6), columns x, y (u), angle (rad),
+    /// vx, vy (u/s), angular velocity (rad/s); 0 for absent objects.
     #[pyo3(signature = (before=false))]
     fn states<'py>(slf: &Bound<'py, Self>, before: bool) -> PyResult<Bound<'py, PyArray3<f32>>> {
         let this = lent(slf)?;
@@ -275,26 +262,6 @@ impl Worlds {
         };
         let alphas: Vec<i64> = this.worlds.iter().flat_map(alphas).collect();
         PyArray1::from_vec(slf.py(), alphas).reshape([this.worlds.len(), AGENT_COUNT])
-    }
-
-    /// The bodies after each substep of the last step: (5, entities, 6).
-    fn substeps<'py>(slf: &Bound<'py, Self>, world: i64) -> PyResult<Bound<'py, PyArray3<f32>>> {
-        let this = lent(slf)?;
-        let episode = this.episode(world)?;
-        let rows = |state: &State| {
-            episode.physics().entities().map(|entity| row_of(state.body(entity)).to_vec()).collect()
-        };
-        let states: Vec<Vec<Vec<f32>>> = episode.substeps().iter().map(rows).collect();
-        PyArray3::from_vec3(slf.py(), &states).map_err(raise)
-    }
-
-    /// The object that each agent of a world holds: its number, or −1.
-    fn held<'py>(slf: &Bound<'py, Self>, world: i64) -> PyResult<Bound<'py, PyArray1<i64>>> {
-        let this = lent(slf)?;
-        let state = this.episode(world)?.state();
-        let held =
-            AgentId::ALL.map(|agent| state.held_object(agent).map_or(-1, |object| object.number().into()));
-        Ok(PyArray1::from_slice(slf.py(), &held))
     }
 }
 

@@ -48,12 +48,12 @@ def test_any_moment_of_any_scene(way, engine):
             for first, second in actions_of(random, (steps, 2)):
                 # After its last step an episode is followed by the next.
                 found.append(env.step({"agent_0": first, "agent_1": second}) if env.agents else env.reset())
-                found.append((env.state(), env._arena._worlds.held(0)))
+                found.append((env.state(), env._arena.observations.copy()))
             return tuple(found)
 
         play(int(random.integers(1, 28)))
-        held += (env._arena._worlds.held(0) >= 0).any()
-        touched += phase.split_observation(env._arena.observations[0, 0])["contacts"].any()
+        parts = phase.split_observation(env._arena.observations[0])
+        held, touched = held + parts["grips"][:, 0, :2].any(), touched + parts["contacts"].any()
         state, position = env.get_state(), random.bit_generator.state
         here = play(12)
         play(7)
@@ -181,6 +181,19 @@ def test_some_worlds_go_back_and_others_stay():
         alone = single.step(action)
         assert np.array_equal(found[0][0], alone[0]) and np.array_equal(found[0][2], alone[0])
         assert found[1][0] == alone[1] and found[4]["partner_action"][0] == alone[4]["partner_action"]
+
+
+def test_a_pool_goes_along_until_there_is_a_new_seed():
+    many = PhaseVectorEnv(2, "helping", agent=0, partner="random", pool=2, max_steps=1)
+    many.reset(seed=1)
+    single = PhaseEnv("helping", partner="random", max_steps=1)
+    single.set_state(many.get_state()[0])
+    many.step(np.array([0, 0])), many.step(np.array([0, 0]))
+    single.reset()
+    assert single.scene.to_json() == many.scene(0).to_json()
+    fresh = PhaseEnv("helping", partner="random")
+    single.reset(seed=5), fresh.reset(seed=5)
+    assert single.scene.to_json() == fresh.scene.to_json()
 
 
 def test_gymnasium_calls_it_in_workers():

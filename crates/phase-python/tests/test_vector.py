@@ -139,6 +139,24 @@ def test_a_mask_resets_some_worlds():
     assert np.array_equal(vector.step(np.full(6, 10))[0].shape, after.shape)
 
 
+def test_worlds_that_a_mask_leaves_go_on():
+    """Their observations, rewards and partners are those of worlds next to which nothing begins, bit for bit."""
+    envs = [PhaseVectorEnv(4, "helping", agent=1, partner="random", max_steps=9, autoreset="disabled", threads=2) for _ in range(2)]
+    [env.reset(seed=1) for env in envs]
+    stay = np.array([True, False, True, False])
+    random = np.random.default_rng(0)
+    for step in range(9):
+        actions = random.integers(14, size=4)
+        found, wanted = (env.step(actions) for env in envs)
+        for k in (0, 1, 3):
+            assert np.array_equal(found[k][stay], wanted[k][stay])
+        assert np.array_equal(found[4]["partner_action"][stay], wanted[4]["partner_action"][stay])
+        if step in (2, 5):
+            envs[0].reset(options={"reset_mask": ~stay})
+    assert found[3].tolist() == [True, False, True, False], "each world has a clock of its own"
+    assert wanted[3].all()
+
+
 def test_the_last_step_of_an_episode_tells_both():
     """`same_step`: infos are those of the new episode, and `final_info` has those of the ended one."""
     place = phase.sample_scene("independent", seed=1).to_dict()

@@ -160,11 +160,11 @@ class Arena:
         """
         self.check_open()
         options = read_options(options, ("scene",))
-        source = as_source(options["scene"]) if "scene" in options else self.pool or self._source
+        given = as_source(options["scene"]) if "scene" in options else None
         if seed is not None:
-            self._random = np.random.default_rng(seed_of(seed))
+            self._random, self.pool = np.random.default_rng(seed_of(seed)), None
         self.seed = int(self._random.integers(2**63))
-        self.scene = source(self.seed)
+        self.scene = (given or self.pool or self._source)(self.seed)
         self._put(self.scene)
         self.steps = 0
         self._look()
@@ -227,10 +227,10 @@ class Arena:
         self.check_running()
         actions = np.array([actions], dtype=np.int64)
         self._worlds.step(actions, self.observations, self._equation_1, self.achieved)
+        self.steps += 1
         step = Transition(self._worlds, self._agent, actions, self._equation_1, self.achieved)
         self.rewards = rewarded(self._reward, step, 2 if self._agent is None else 1)
         self._camera.look(self._worlds)
-        self.steps += 1
         if self.render_mode == "human":
             self.render()
 
