@@ -4,7 +4,7 @@
 //!   [`trajectories`] those of a [`Forecaster`](phase_event::Forecaster) (Task 2); [`estimate`] puts
 //!   intervals around every score.
 //! - [`trivial`] has trivial baselines for both tasks, below which no method should fall.
-//! - [`benchmark`] compares many methods on the same events.
+//! - [`benchmark`] is many methods on the same events, and [`comparison`] two of them event by event.
 //! - [`ratings`] are people's judgements of relations, with which [`goals::Agreement`] compares a method's.
 //! - [`results`] is output for programs, and [`predictions`] the answers of an external method to either
 //!   task.
@@ -44,6 +44,7 @@
 #![deny(missing_docs)]
 
 pub mod benchmark;
+pub mod comparison;
 pub mod estimate;
 pub mod goals;
 mod group;

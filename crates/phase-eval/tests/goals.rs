@@ -2,6 +2,7 @@
 
 use phase_eval::{
     GroupScores,
+    comparison::GoalDifference,
     goals::{
         Answer, Calibration, ErrorBreakdown, InvalidAnswer, Label, PartialAnswer, RecognisedEvent,
         RecognitionScores, RecognitionSummary, SetScores, canonical,
@@ -185,6 +186,29 @@ fn two_events_summed_up_by_hand() {
     assert!((summary.goal_calibration.error - 0.25).abs() < 1e-12);
     assert!((summary.relation_calibration.error - 0.25).abs() < 1e-12);
     assert_eq!(RecognitionSummary::of(&[], 1), None);
+}
+
+#[test]
+fn two_methods_compared_by_hand() {
+    let one = two_events();
+    let same = GoalDifference::of(&one, &one, 1).expect("the same events").expect("events");
+    assert_eq!((same.goal.low, same.goal.value, same.goal.high, same.relation.value), (0.0, 0.0, 0.0, 0.0));
+    // A method that names no goal, and the other relation, in every event; events in another order.
+    let nothing = |event: &RecognisedEvent| {
+        let said = event.answer.relation.most_likely();
+        let relation = [Relation::Friendly, Relation::Adversarial, Relation::Neutral]
+            .map(|relation| f64::from(u8::from(relation != said)) / 2.0);
+        RecognisedEvent { answer: answer([&[], &[]], relation), ..event.clone() }
+    };
+    let other: Vec<_> = one.iter().rev().map(nothing).collect();
+    let scores = RecognitionSummary::of(&one, 1).expect("events").all;
+    let found = GoalDifference::of(&one, &other, 1).expect("the same events").expect("events");
+    assert_eq!(found.goal, scores.top1);
+    let back = GoalDifference::of(&other, &one, 1).expect("the same events").expect("events");
+    assert_eq!(back.goal.value, -found.goal.value);
+    let error = GoalDifference::of(&one, &other[..1], 1).expect_err("one is missing");
+    assert_eq!(error.id, one[0].id);
+    assert!(GoalDifference::of(&one[..1], &one, 1).is_err());
 }
 
 #[test]

@@ -23,6 +23,7 @@
 //!
 //! A method that perceives events implements [`Recogniser`] (goals and relations) or [`Forecaster`]
 //! (trajectories), and is shown an [`ObservedEvent`].
+//! [`parse_observed`] reads them from files without labels.
 //!
 //! `docs/reference/formats/events.md` describes every field. Reading and writing are exact inverses, bit for
 //! bit. Every part can also be read and written separately: [`Recording`], [`Event`] and
@@ -56,7 +57,7 @@ pub use event::{Event, Step};
 pub use mean::mean_state;
 pub use method::{Forecaster, MethodError, MethodResult, Prediction, ProgressCallback, Recogniser, SAMPLES};
 pub use observed::{ObservedError, ObservedEvent};
-pub use read::{LONGEST_ID, check_id, from_json, parse};
+pub use read::{LONGEST_ID, check_id, from_json, parse, parse_observed};
 pub use recording::{Controller, Recording, Recovered, SimulationRecord};
 pub use subgoals::subgoal_of;
 pub use thought::{ActionEvaluation, SubgoalValue, Thought};

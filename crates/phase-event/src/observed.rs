@@ -1,5 +1,6 @@
 //! An event as observed by a viewer: walls, sizes and motion, without labels.
 
+use crate::trajectory::{Trajectory, row_of};
 use phase_model::{
     AGENT_COUNT, AgentBody, AgentId, Body, Entity, Layout, MAX_ENTITIES, MAX_OBJECTS, PhysicsConfig, Scene,
     Size, State,
@@ -139,6 +140,17 @@ impl ObservedEvent {
             object_radii,
             object_count: self.object_sizes.len(),
         }
+    }
+
+    /// The state of every frame of a video of the event: the initial state, then five states a step. Bodies
+    /// go straight from row to row.
+    #[must_use]
+    pub fn frames(&self) -> Vec<State> {
+        let track = |entity: usize| self.rows.iter().map(|row| row_of(&row[entity])).collect();
+        let objects = AGENT_COUNT..AGENT_COUNT + self.object_sizes.len();
+        let trajectory =
+            Trajectory { agents: core::array::from_fn(track), objects: objects.map(track).collect() };
+        trajectory.interpolated().collect()
     }
 
     /// Row `t` as a state without grips and contacts, which trajectories do not contain; `None` past the last

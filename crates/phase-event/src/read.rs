@@ -1,7 +1,7 @@
 //! From JSON to recordings.
 
 use crate::{
-    COLUMNS, Controller, Event, EventReadError, Recording, Recovered, Row, Trajectory,
+    COLUMNS, Controller, Event, EventReadError, ObservedEvent, Recording, Recovered, Row, Trajectory,
     read_simulation::{actions_of, event_of, seed_of, simulation_of},
     trajectory::body_of,
     write::FILE_FORMAT,
@@ -54,7 +54,17 @@ pub const LONGEST_ID: usize = 100;
 /// # Errors
 /// [`EventReadError`] names event, field and rule.
 pub fn from_json(text: &str) -> Result<Vec<Recording>, EventReadError> {
-    all_of(&json::parse_text(text)?)
+    all_of(&json::parse_text(text)?, recording, |read| &read.id)
+}
+
+/// Reads layout, sizes and motion of all events from the bytes of a file of the form `phase-events/1`, with
+/// the events' ids. Labels are not looked at and may be absent: `event`, `relation`, and `goal`, `alpha` and
+/// `strength_level` of agents.
+///
+/// # Errors
+/// [`EventReadError`] names event, field and rule.
+pub fn parse_observed(bytes: &[u8]) -> Result<Vec<(String, ObservedEvent)>, EventReadError> {
+    all_of(&json::parse(bytes)?, observed, |(id, _)| id)
 }
 
 /// Reads events from the bytes of a file, which need not be valid UTF-8.
@@ -62,10 +72,13 @@ pub fn from_json(text: &str) -> Result<Vec<Recording>, EventReadError> {
 /// # Errors
 /// [`EventReadError`] names event, field and rule.
 pub fn parse(bytes: &[u8]) -> Result<Vec<Recording>, EventReadError> {
-    all_of(&json::parse(bytes)?)
+    all_of(&json::parse(bytes)?, recording, |read| &read.id)
 }
 
-fn all_of(document: &Value) -> Result<Vec<Recording>, EventReadError> {
+/// The reading of an event, which is told its number as a name for one without a valid id.
+type Reader<T> = fn(&Field<'_>, &dyn Fn() -> Option<String>) -> Result<T, EventReadError>;
+
+fn all_of<T>(document: &Value, read: Reader<T>, name: fn(&T) -> &String) -> Result<Vec<T>, EventReadError> {
     json::check_format(document, FILE_FORMAT)?;
     let of_file = |problem| EventReadError::Field { event: None, problem };
     let file = Field::root(document);
@@ -76,17 +89,17 @@ fn all_of(document: &Value) -> Result<Vec<Recording>, EventReadError> {
         return Err(EventReadError::NoEvents);
     }
     let mut ids = BTreeSet::new();
-    let mut recordings = Vec::with_capacity(events.len());
+    let mut all = Vec::with_capacity(events.len());
     for (k, value) in events.iter().enumerate() {
-        let number = || Some(format!("number {k}"));
-        let recording = recording(&Field::root(value), number)?;
+        let event = read(&Field::root(value), &|| Some(format!("number {k}")))?;
+        let id = name(&event);
         // Some systems take names for one that differ in case only.
-        if !ids.insert(recording.id.to_ascii_lowercase()) {
-            return Err(EventReadError::DuplicateId(recording.id));
+        if !ids.insert(id.to_ascii_lowercase()) {
+            return Err(EventReadError::DuplicateId(id.clone()));
         }
-        recordings.push(recording);
+        all.push(event);
     }
-    Ok(recordings)
+    Ok(all)
 }
 
 impl Recording {
@@ -103,7 +116,7 @@ impl Recording {
     /// # Errors
     /// [`EventReadError`] names field and rule.
     pub fn from_value(value: &Value) -> Result<Self, EventReadError> {
-        recording(&Field::root(value), || None)
+        recording(&Field::root(value), &|| None)
     }
 }
 
@@ -131,7 +144,7 @@ impl Event {
 }
 
 /// `name` is used for an event without a valid `id`.
-fn recording(event: &Field<'_>, name: impl FnOnce() -> Option<String>) -> Result<Recording, EventReadError> {
+fn recording(event: &Field<'_>, name: &dyn Fn() -> Option<String>) -> Result<Recording, EventReadError> {
     let id = id_of(event).map_err(|problem| EventReadError::Field { event: name(), problem })?;
     let in_event = |problem| EventReadError::Field { event: Some(id.clone()), problem };
     let (mut scene, trajectory) = start_and_motion(event, Some(&id))?;
@@ -152,6 +165,23 @@ fn recording(event: &Field<'_>, name: impl FnOnce() -> Option<String>) -> Result
         seed,
         simulation,
     })
+}
+
+/// The part of an event that a viewer sees, and its id; see [`parse_observed`].
+fn observed(
+    event: &Field<'_>,
+    name: &dyn Fn() -> Option<String>,
+) -> Result<(String, ObservedEvent), EventReadError> {
+    let id = id_of(event).map_err(|problem| EventReadError::Field { event: name(), problem })?;
+    let in_event = |problem| EventReadError::Field { event: Some(id.clone()), problem };
+    event.only(&MEMBERS).map_err(in_event)?;
+    let (layout, agents, objects) = Scene::layout_and_sizes(event).map_err(in_event)?;
+    let motion = trajectory(event, objects.len()).map_err(in_event)?;
+    let rows = motion.states().iter().map(|state| state.bodies).collect();
+    let seen = ObservedEvent::new(layout, agents, objects, rows).map_err(|error| {
+        in_event(FieldError { field: "trajectory".into(), rule: format!("cannot be observed: {error}") })
+    })?;
+    Ok((id, seen))
 }
 
 /// The scene, which starts at the first row of the trajectory, and the trajectory.

@@ -90,7 +90,7 @@ impl Trajectory {
 }
 
 /// The columns of a body.
-const fn row_of(body: &Body) -> Row {
+pub(crate) const fn row_of(body: &Body) -> Row {
     [body.position.x, body.position.y, body.velocity.x, body.velocity.y, body.angle]
 }
 

@@ -4,14 +4,17 @@ use crate::{
     arrays::{Target, writing},
     error::raise,
     event::Event,
+    observed::Observed,
     scene::agent_of,
     worlds::{Worlds, lent},
 };
-use numpy::{PyArray1, PyArray3, PyArray5, PyArrayMethods};
+use numpy::{PyArray1, PyArray3, PyArray4, PyArray5, PyArrayMethods};
 use phase_files::atomic;
-use phase_model::{AgentId, Body, MAX_ENTITIES, PhysicsConfig, State, Vec2, arena::FRAMES_PER_SECOND};
+use phase_model::{
+    AGENT_COUNT, AgentId, Body, MAX_ENTITIES, PhysicsConfig, State, Vec2, arena::FRAMES_PER_SECOND,
+};
 use phase_perception::observe;
-use phase_render::{Frame, Overlay, RenderError, SceneRenderer, Style, VideoEncoder};
+use phase_render::{Frame, Overlay, PaletteName, RenderError, SceneRenderer, Style, VideoEncoder};
 use phase_sim::{Episode, View};
 use pyo3::prelude::*;
 use rayon::prelude::*;
@@ -24,20 +27,31 @@ const COLOURS: usize = 3;
 #[pyclass(frozen, module = "phase_events._native")]
 pub(crate) struct Renderer {
     style: Style,
+    palette: PaletteName,
 }
+
+/// The greatest size of several pictures in memory.
+const MOST_BYTES: u64 = 1 << 32;
 
 #[pymethods]
 impl Renderer {
-    /// Pictures of `side` × `side` pixels, 64 to 2000. `PhaseError` for another side.
+    /// Pictures of `side` × `side` pixels, 64 to 2000, in the colours of a palette. `PhaseError` for another
+    /// side, and for an unknown palette.
     #[new]
-    fn new(side: u32) -> PyResult<Self> {
-        let style = Style::with_side(side);
+    #[pyo3(signature = (side, palette="paper"))]
+    fn new(side: u32, palette: &str) -> PyResult<Self> {
+        let found = PaletteName::ALL.into_iter().find(|known| known.name() == palette);
+        let palette = found.ok_or_else(|| {
+            let known = PaletteName::ALL.map(PaletteName::name).join(" or ");
+            raise(format!("palette is {known}, not {palette:?}"))
+        })?;
+        let style = Style { palette: palette.palette(), ..Style::with_side(side) };
         style.validate().map_err(raise)?;
-        Ok(Self { style })
+        Ok(Self { style, palette })
     }
 
-    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> (Bound<'py, PyAny>, (u32,)) {
-        (slf.get_type().into_any(), (slf.get().style.side,))
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> (Bound<'py, PyAny>, (u32, &'static str)) {
+        (slf.get_type().into_any(), (slf.get().style.side, slf.get().palette.name()))
     }
 
     /// A world as it is now: (side, side, 3), red, green, blue, 0 to 255. `PhaseError` if there is no such
@@ -50,7 +64,9 @@ impl Renderer {
     ) -> PyResult<Bound<'py, PyArray3<u8>>> {
         let worlds = lent(worlds)?;
         let (physics, state) = worlds.view(world)?;
-        self.array(py, &self.frame(physics, state)?)
+        let renderer = SceneRenderer::new(physics, self.style).map_err(raise)?;
+        let shape = [renderer.height() as usize, renderer.width() as usize, 3];
+        PyArray1::from_vec(py, colours(&renderer.frame(state, None)).collect()).reshape(shape)
     }
 
     /// Writes pictures of what agents observe, (N, agents, side, side, 3). Cells out of sight are dimmed, and
@@ -92,40 +108,71 @@ impl Renderer {
         .map_err(raise)
     }
 
-    /// An event at a row, 0 to its number of steps: (side, side, 3), red, green, blue, 0 to 255. `PhaseError`
-    /// for another row.
-    fn event<'py>(
+    /// Rows of an event: (rows, side, side, 3), red, green, blue, 0 to 255. `PhaseError` for a row that there
+    /// is not, and for pictures of more than 4 GiB.
+    fn rows<'py>(
         &self,
         py: Python<'py>,
-        event: PyRef<'py, Event>,
-        row: usize,
-    ) -> PyResult<Bound<'py, PyArray3<u8>>> {
-        let recording = &event.recording;
-        let steps = recording.trajectory.steps();
-        let state = recording.trajectory.state(row);
-        let state =
-            state.ok_or_else(|| raise(format!("the event has the rows 0 to {steps}, and no row {row}")))?;
-        self.array(py, &self.frame(&recording.scene.physics(), &state)?)
+        observed: PyRef<'py, Observed>,
+        rows: Vec<usize>,
+    ) -> PyResult<Bound<'py, PyArray4<u8>>> {
+        let steps = observed.event.steps();
+        let state = |row| {
+            let state = observed.event.state(row);
+            state.ok_or_else(|| raise(format!("the event has the rows 0 to {steps}, and no row {row}")))
+        };
+        let states = rows.into_iter().map(state).collect::<PyResult<Vec<_>>>()?;
+        self.film(py, &physics_of(&observed), &states)
     }
 
-    /// Writes an event as an .mp4 (H.264) with 20 frames a second: five a step, or for a recording, which has
-    /// no substeps, one a step shown five times. `PhaseError` for an odd side, and if the file
-    /// cannot be written; an older one of that name is unchanged then.
-    fn video(&self, py: Python<'_>, event: PyRef<'_, Event>, path: PathBuf) -> PyResult<()> {
-        let recording = event.recording.clone();
-        py.detach(|| {
-            let physics = recording.scene.physics();
-            let states = match &recording.simulation {
-                Some(simulation) => {
-                    let substeps = simulation.event.steps.iter().flat_map(|step| step.substeps);
-                    core::iter::once(simulation.event.initial).chain(substeps).collect()
-                }
-                None => recording.trajectory.states().into_iter().flat_map(|state| [state; 5]).collect(),
-            };
-            self.write(&physics, states, &path)
-        })
-        .map_err(raise)
+    /// Frames of the video of an event, as [`video`](Self::video) has them: (frames, side, side, 3).
+    /// `PhaseError` for pictures of more than 4 GiB.
+    fn clip<'py>(
+        &self,
+        py: Python<'py>,
+        shown: Shown<'py>,
+        first: usize,
+        count: usize,
+    ) -> PyResult<Bound<'py, PyArray4<u8>>> {
+        let (physics, states) = shown.film();
+        let states: Vec<_> = states.into_iter().skip(first).take(count).collect();
+        self.film(py, &physics, &states)
     }
+
+    /// Writes an event as an .mp4 (H.264) with 20 frames a second: five a step; where there are no
+    /// substeps, bodies go straight from row to row. `PhaseError` for an odd side, and if the file
+    /// cannot be written; an older one of that name is unchanged then.
+    fn video(&self, py: Python<'_>, shown: Shown<'_>, path: PathBuf) -> PyResult<()> {
+        let (physics, states) = shown.film();
+        py.detach(|| self.write(&physics, states, &path)).map_err(raise)
+    }
+}
+
+/// Something to draw: an event, or the part of one that a viewer sees.
+#[derive(FromPyObject)]
+pub(crate) enum Shown<'py> {
+    Event(PyRef<'py, Event>),
+    Observed(PyRef<'py, Observed>),
+}
+
+impl Shown<'_> {
+    /// The physics, and the state at each frame of a video.
+    fn film(&self) -> (PhysicsConfig, Vec<State>) {
+        match self {
+            Self::Event(event) => (event.recording.scene.physics(), event.recording.frames().collect()),
+            Self::Observed(observed) => (physics_of(observed), observed.event.frames()),
+        }
+    }
+}
+
+/// The physics of an event as far as a picture shows it: no force is drawn.
+fn physics_of(observed: &Observed) -> PhysicsConfig {
+    observed.event.physics([0.0; AGENT_COUNT])
+}
+
+/// The colours of a frame, pixel by pixel: red, green, blue.
+fn colours(frame: &Frame) -> impl Iterator<Item = u8> {
+    frame.rgba().chunks_exact(4).flat_map(|pixel| [pixel[0], pixel[1], pixel[2]])
 }
 
 impl Renderer {
@@ -160,21 +207,28 @@ impl Renderer {
                 renderer.frame(&known, Some(&overlay))
             };
             let frame = whole.clone().unwrap_or_else(seen);
-            for (to, from) in out.chunks_exact_mut(COLOURS).zip(frame.rgba().chunks_exact(4)) {
-                to.copy_from_slice(&from[..COLOURS]);
-            }
+            out.iter_mut().zip(colours(&frame)).for_each(|(to, from)| *to = from);
         }
         Ok(())
     }
 
-    fn frame(&self, physics: &PhysicsConfig, state: &State) -> PyResult<Frame> {
-        Ok(SceneRenderer::new(physics, self.style).map_err(raise)?.frame(state, None))
-    }
-
-    fn array<'py>(&self, py: Python<'py>, frame: &Frame) -> PyResult<Bound<'py, PyArray3<u8>>> {
-        let pixels: Vec<u8> =
-            frame.rgba().chunks_exact(4).flat_map(|pixel| [pixel[0], pixel[1], pixel[2]]).collect();
-        let shape = [frame.height() as usize, frame.width() as usize, 3];
+    fn film<'py>(
+        &self,
+        py: Python<'py>,
+        physics: &PhysicsConfig,
+        states: &[State],
+    ) -> PyResult<Bound<'py, PyArray4<u8>>> {
+        let renderer = SceneRenderer::new(physics, self.style).map_err(raise)?;
+        let shape = [states.len(), renderer.height() as usize, renderer.width() as usize, 3];
+        let bytes = shape.iter().try_fold(1_usize, |bytes, &length| bytes.checked_mul(length));
+        let bytes = bytes.filter(|&bytes| bytes as u64 <= MOST_BYTES).ok_or_else(|| {
+            raise(format!("{} pictures of this side are more than 4 GiB; ask for fewer", states.len()))
+        })?;
+        let pixels = py.detach(|| {
+            let mut pixels = Vec::with_capacity(bytes);
+            states.iter().for_each(|state| pixels.extend(colours(&renderer.frame(state, None))));
+            pixels
+        });
         PyArray1::from_vec(py, pixels).reshape(shape)
     }
 

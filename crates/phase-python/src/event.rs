@@ -1,8 +1,14 @@
 //! Events: simulated, read, as arrays.
 
-use crate::{arrays::row_of, error::raise, mind::read_parameters, scene::Scene, world::engine_of};
+use crate::{
+    arrays::row_of,
+    error::raise,
+    mind::read_parameters,
+    scene::{Scene, number_of},
+    world::engine_of,
+};
 use core::ops::ControlFlow;
-use numpy::{PyArray2, PyArray3};
+use numpy::{PyArray1, PyArray2, PyArray3};
 use phase_event::{Recording, Thought, from_json, to_json};
 use phase_files::atomic;
 use phase_model::arena::SUBSTEPS;
@@ -85,13 +91,27 @@ impl Event {
         Scene { scene: self.recording.scene.clone() }
     }
 
-    /// The rows of the trajectory: (steps + 1, entities, 5), columns x, y (u), vx, vy (u/s), angle (rad). Row
-    /// 0 is the initial state, every other the mean over the substeps of its step.
-    fn trajectory<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray3<f32>>> {
-        let entities: Vec<_> = self.recording.trajectory.entities().collect();
-        let row = |step: usize| entities.iter().map(|rows| rows[step].to_vec()).collect();
-        let rows: Vec<Vec<Vec<f32>>> = (0..=self.recording.trajectory.steps()).map(row).collect();
-        PyArray3::from_vec3(py, &rows).map_err(raise)
+    /// Both agents' goals: their indices among the goals that methods tell apart.
+    #[getter]
+    fn goal_indices<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<i64>>> {
+        let index = |goal| number_of(goal).map(|index| index as i64);
+        let indices = self.recording.scene.goals().map(index);
+        let indices: Option<Vec<i64>> = indices.into_iter().collect();
+        Ok(PyArray1::from_vec(py, indices.ok_or_else(|| raise("an agent cannot touch itself"))?))
+    }
+
+    /// Both agents' attitudes: 1 helps, -1 hinders, 0 neither.
+    #[getter]
+    fn attitudes<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<i64>> {
+        let attitudes = self.recording.scene.attitudes().map(|attitude| attitude.alpha().into());
+        PyArray1::from_slice(py, &attitudes)
+    }
+
+    /// The level of strength of both agents, 0 to 3.
+    #[getter]
+    fn strength_levels<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<i64>> {
+        let levels = self.recording.scene.agents.map(|agent| agent.strength.level().into());
+        PyArray1::from_slice(py, &levels)
     }
 
     /// The bodies after every substep: (5 · steps, entities, 6), columns x, y (u), angle (rad), vx, vy (u/s),

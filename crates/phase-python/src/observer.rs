@@ -3,20 +3,15 @@
 use crate::{
     arrays::{reading, rows},
     error::raise,
-    scene::Scene,
+    observed::{Observed, ROW_COLUMNS, bodies},
 };
 use core::ops::ControlFlow;
 use numpy::PyArray2;
 use phase_eval::goals::Answer;
-use phase_event::ObservedEvent;
-use phase_model::{Body, MAX_ENTITIES, Vec2};
 use phase_simple::{Budget, Inference, Observer, Simple};
 use pyo3::{PyTypeInfo, prelude::*};
 use serde_json::json;
 use std::sync::{Mutex, MutexGuard, PoisonError};
-
-/// Columns of a row of an event: x, y (u), vx, vy (u/s), angle (rad).
-const COLUMNS: usize = 5;
 
 /// SIMPLE while an event is watched, row by row. Users see it as `phase_events.Observer`.
 ///
@@ -24,8 +19,7 @@ const COLUMNS: usize = 5;
 #[pyclass(frozen, name = "Observer", module = "phase_events._native")]
 pub(crate) struct PythonObserver {
     simple: Simple,
-    scene: Py<Scene>,
-    first: Py<PyArray2<f32>>,
+    start: Py<Observed>,
     seed: u64,
     decisions: Option<usize>,
     watched: Mutex<Watched>,
@@ -39,35 +33,28 @@ struct Watched {
 }
 
 /// A row that was pushed; `None` for an inference.
-type Asked = Option<Vec<[f32; COLUMNS]>>;
+type Asked = Option<Vec<[f32; ROW_COLUMNS]>>;
 
 #[pymethods]
 impl PythonObserver {
-    /// Begins with the first row, (entities, 5): x, y (u), vx, vy (u/s), angle (rad). Of the scene only walls
-    /// and sizes are looked at. [`push`](Self::push) simulates at most `decisions` decisions of minds for a
-    /// row; the default is that of [`Budget`]. `PhaseError` for an invalid row.
+    /// Begins with the rows of an event that were seen before. [`push`](Self::push) simulates at most
+    /// `decisions` decisions of minds for a row; the default is that of [`Budget`].
     #[new]
     fn new(
         py: Python<'_>,
-        scene: &Bound<'_, Scene>,
-        row: &Bound<'_, PyArray2<f32>>,
+        start: Bound<'_, Observed>,
         seed: u64,
         decisions: Option<usize>,
     ) -> PyResult<Self> {
-        let model = &scene.get().scene;
-        let entities = model.physics().entities().count();
-        let numbers = read_row(row, entities)?;
-        // A copy: the caller's array may change.
-        let first = PyArray2::from_vec2(py, &numbers.iter().map(|row| row.to_vec()).collect::<Vec<_>>());
-        let first = first.map_err(raise)?.unbind();
-        let observed = ObservedEvent::in_scene(model, vec![bodies(&numbers)]).map_err(raise)?;
+        let observed = &start.get().event;
         let simple = Simple::bundled().map_err(raise)?;
-        let mut observer = py.detach(|| simple.observer(&observed, seed)).map_err(raise)?;
+        let mut observer = py.detach(|| simple.observer(observed, seed)).map_err(raise)?;
         if let Some(decisions) = decisions {
             observer.set_budget(Budget { decisions: Some(decisions) });
         }
+        let entities = observed.entities().count();
         let watched = Mutex::new(Watched { observer, asked: Vec::new() });
-        Ok(Self { simple, scene: scene.clone().unbind(), first, seed, decisions, watched, entities })
+        Ok(Self { simple, start: start.unbind(), seed, decisions, watched, entities })
     }
 
     /// The arguments of the constructor, and of `__setstate__`.
@@ -75,8 +62,8 @@ impl PythonObserver {
     fn __reduce__<'py>(
         &self,
         py: Python<'py>,
-    ) -> (Bound<'py, PyAny>, (Py<Scene>, Py<PyArray2<f32>>, u64, Option<usize>), Vec<Asked>) {
-        let arguments = (self.scene.clone_ref(py), self.first.clone_ref(py), self.seed, self.decisions);
+    ) -> (Bound<'py, PyAny>, (Py<Observed>, u64, Option<usize>), Vec<Asked>) {
+        let arguments = (self.start.clone_ref(py), self.seed, self.decisions);
         (Self::type_object(py).into_any(), arguments, self.watched().asked.clone())
     }
 
@@ -132,17 +119,8 @@ impl PythonObserver {
 }
 
 /// The numbers of a row, (entities, 5).
-fn read_row(row: &Bound<'_, PyArray2<f32>>, entities: usize) -> PyResult<Vec<[f32; COLUMNS]>> {
-    let row = reading("row", row, &[entities, COLUMNS])?;
+fn read_row(row: &Bound<'_, PyArray2<f32>>, entities: usize) -> PyResult<Vec<[f32; ROW_COLUMNS]>> {
+    let row = reading("row", row, &[entities, ROW_COLUMNS])?;
     let numbers = rows(&row);
     Ok(numbers.as_chunks().0.to_vec())
-}
-
-fn bodies(row: &[[f32; COLUMNS]]) -> [Body; MAX_ENTITIES] {
-    let mut bodies = [Body::default(); MAX_ENTITIES];
-    for (body, &[x, y, vx, vy, angle]) in bodies.iter_mut().zip(row) {
-        let (position, velocity) = (Vec2::new(x, y), Vec2::new(vx, vy));
-        *body = Body { position, velocity, angle, angular_velocity: 0.0 };
-    }
-    bodies
 }

@@ -1,12 +1,19 @@
 //! Methods that perceive events: goals and relations, and what comes next.
 
-use crate::{error::raise, event::Event};
+use crate::{error::raise, observed::Observed};
 use core::ops::ControlFlow;
-use phase_eval::goals::Answer;
-use phase_event::ObservedEvent;
-use phase_runs::{effort::MindChoice, eval::methods as named};
+use phase_eval::{
+    comparison::{ForecastDifference, GoalDifference},
+    goals::Answer,
+};
+use phase_runs::{
+    effort::MindChoice,
+    eval::{methods as named, networks},
+};
 use pyo3::prelude::*;
-use serde_json::json;
+use serde::de::DeserializeOwned;
+use serde_json::{Value, json};
+use std::sync::Arc;
 
 /// Runs a computation without the interpreter's lock, and stops it when Python has a signal to handle.
 ///
@@ -29,27 +36,16 @@ pub(crate) fn interruptible<T: Send>(
     interrupted.map_or(Ok(done), Err)
 }
 
-/// The steps of an event that are watched.
-///
-/// # Errors
-/// `PhaseError` for an event of which nothing can be seen.
-pub(crate) fn observed(event: &Event, steps: Option<usize>) -> PyResult<ObservedEvent> {
-    let observed = event.recording.observed().map_err(raise)?;
-    Ok(steps.map_or_else(|| observed.clone(), |steps| observed.prefix(steps)))
-}
-
-/// Infers goals and relation of an event from its trajectories, or from the first `steps` steps of them; the
-/// answer as JSON. `PhaseError` for an unknown method, and for an event without motion.
+/// Infers goals and relation from what was seen of an event; the answer as JSON. `PhaseError` for an unknown
+/// method, and for an event without motion.
 #[pyfunction]
-#[pyo3(signature = (event, method, seed, steps))]
 pub(crate) fn infer(
     py: Python<'_>,
-    event: PyRef<'_, Event>,
+    observed: PyRef<'_, Observed>,
     method: &str,
     seed: u64,
-    steps: Option<usize>,
 ) -> PyResult<String> {
-    let observed = observed(&event, steps)?;
+    let observed = Arc::clone(&observed.event);
     let recogniser = named::recogniser(method, None, &MindChoice::default()).map_err(raise)?;
     let judged = interruptible(py, |tick| {
         let judged = recogniser.judge(&observed, seed, tick);
@@ -61,18 +57,17 @@ pub(crate) fn infer(
     serde_json::to_string(&json!({ "answer": answer, "details": details })).map_err(raise)
 }
 
-/// Predicts the next steps of an event of which `watched` steps are known; the answer as JSON, positions in
-/// u. `PhaseError` for an unknown method.
+/// Predicts the next steps after what was seen of an event; the answer as JSON, positions in u. `PhaseError`
+/// for an unknown method.
 #[pyfunction]
 pub(crate) fn forecast(
     py: Python<'_>,
-    event: PyRef<'_, Event>,
+    observed: PyRef<'_, Observed>,
     method: &str,
-    watched: usize,
     steps: usize,
     seed: u64,
 ) -> PyResult<String> {
-    let observed = observed(&event, Some(watched))?;
+    let observed = Arc::clone(&observed.event);
     let forecaster = named::forecaster(method, None, &MindChoice::default()).map_err(raise)?;
     let found = interruptible(py, |tick| {
         let found = forecaster.forecast(&observed, steps, seed, tick);
@@ -87,8 +82,39 @@ pub(crate) fn forecast(
     serde_json::to_string(&answer).map_err(raise)
 }
 
-/// The names of the methods for `infer`, and of those for `forecast`.
+/// The names of the methods for `infer`, and of those for `forecast`, that this build has.
 #[pyfunction]
 pub(crate) fn methods() -> (Vec<&'static str>, Vec<&'static str>) {
-    (named::recognisers(), named::FORECASTERS.to_vec())
+    let built = |name: &&'static str| networks::INCLUDED || !networks::is_network(name);
+    let [goals, trajectories] = [named::recognisers(), named::FORECASTERS.to_vec()];
+    (goals.into_iter().filter(built).collect(), trajectories.into_iter().filter(built).collect())
+}
+
+/// Scores of one method less those of another on the same events, from the results of both at a task, as
+/// JSON. `PhaseError` for results that are none, and of other events.
+#[pyfunction]
+pub(crate) fn compare(py: Python<'_>, task: &str, one: &str, other: &str, seed: u64) -> PyResult<String> {
+    let difference = py.detach(|| -> Result<Value, String> {
+        let text = |error: &dyn core::error::Error| error.to_string();
+        let value = if task == "goals" {
+            let events = [events_of(one)?, events_of(other)?];
+            let difference =
+                GoalDifference::of(&events[0], &events[1], seed).map_err(|error| text(&error))?;
+            serde_json::to_value(difference)
+        } else {
+            let events = [events_of(one)?, events_of(other)?];
+            let difference =
+                ForecastDifference::of(&events[0], &events[1], seed).map_err(|error| text(&error))?;
+            serde_json::to_value(difference)
+        };
+        value.map_err(|error| text(&error))
+    });
+    difference.map(|difference| difference.to_string()).map_err(raise)
+}
+
+/// The events of results of an evaluation.
+fn events_of<E: DeserializeOwned>(results: &str) -> Result<Vec<E>, String> {
+    let unlike = |error| format!("results of another task, or none: {error}");
+    let mut results: Value = serde_json::from_str(results).map_err(unlike)?;
+    serde_json::from_value(results["events"].take()).map_err(unlike)
 }

@@ -1,7 +1,8 @@
 //! Scenes: read, written, sampled.
 
 use crate::error::raise;
-use phase_model::{Action, AgentId, Scene as ModelScene};
+use phase_eval::goals::canonical;
+use phase_model::{Action, AgentId, Goal, LandmarkId, ObjectId, Scene as ModelScene, Sign};
 use phase_runs::gen_dataset::{any_scene, plan};
 use phase_sampler::sample_named;
 use pyo3::prelude::*;
@@ -94,6 +95,38 @@ impl Scene {
 pub(crate) fn action_names() -> Vec<String> {
     let name = |action: Action| serde_json::to_value(action).ok()?.as_str().map(str::to_owned);
     Action::ALL.into_iter().filter_map(name).collect()
+}
+
+/// The goals that methods tell apart, in their canonical form: 17 to be achieved, and the same to be avoided.
+pub(crate) fn all_goals() -> Vec<Goal> {
+    let sign = Sign::Positive;
+    let mut goals = Vec::new();
+    for agent in AgentId::ALL {
+        goals.extend(LandmarkId::ALL.map(|landmark| Goal::AgentOnLandmark { agent, landmark, sign }));
+    }
+    for object in ObjectId::ALL {
+        goals.extend(LandmarkId::ALL.map(|landmark| Goal::ObjectOnLandmark { object, landmark, sign }));
+    }
+    goals.push(Goal::Touch { agent: AgentId::ZERO, other: AgentId::ONE, sign });
+    let avoided: Vec<Goal> = goals.iter().map(|goal| goal.negated()).collect();
+    goals.into_iter().chain(avoided).collect()
+}
+
+/// [`all_goals`] as JSON.
+pub(crate) fn goals_as_json() -> PyResult<String> {
+    serde_json::to_string(&all_goals()).map_err(raise)
+}
+
+/// The index of a goal, given as JSON, among [`all_goals`]. `PhaseError` if it is none.
+#[pyfunction]
+pub(crate) fn goal_index(goal: &str) -> PyResult<usize> {
+    let goal: Goal = serde_json::from_str(goal).map_err(|error| raise(format!("goal: {error}")))?;
+    number_of(goal).ok_or_else(|| raise("goal: an agent cannot touch itself"))
+}
+
+/// The index of a goal among [`all_goals`].
+pub(crate) fn number_of(goal: Goal) -> Option<usize> {
+    all_goals().into_iter().position(|other| other == canonical(goal))
 }
 
 /// An agent by its number.

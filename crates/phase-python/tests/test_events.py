@@ -2,6 +2,7 @@
 
 import json
 import os
+import pickle
 import signal
 import subprocess
 import sys
@@ -27,7 +28,7 @@ def test_an_event_is_what_its_file_says(event, tmp_path):
     means = event.substeps.reshape(event.steps, 5, 3, 6).mean(axis=1)
     assert np.allclose(event.trajectory[1:, :, :2], means[:, :, :2], atol=1e-4)
     assert len(event.thoughts) == event.steps
-    assert event.attitudes in ([0, 1], [1, 0])
+    assert event.attitudes.tolist() in ([0, 1], [1, 0])
 
 
 def test_a_seed_decides_everything(scene, event):
@@ -146,6 +147,76 @@ def test_scores_are_the_benchmarks(event, tmp_path):
         phase.evaluate({event.id: {"goals": [[], []]}}, [event])
 
 
+def test_comparisons(event):
+    other = phase.simulate(phase.sample_scene("chasing", seed=1), seed=2, max_steps=45, parameters=QUICK, id="other")
+    events = [event, other]
+    found = phase.evaluate("cue", events, compare=["chance", "intent-network"])
+    names = [row["method"] for row in found["comparison"]]
+    assert names == ["cue", "chance", "intent-network"] and found["comparison"][0]["difference"] is None
+    alone = {name: phase.evaluate(name, events) for name in names}
+    for row in found["comparison"]:
+        assert row["goal"]["value"] == alone[row["method"]]["goal"]["top1"]
+        assert [row["relation"]["low"], row["relation"]["high"]] == alone[row["method"]]["intervals"]["relation"]["accuracy"]
+    for row in found["comparison"][1:]:
+        wanted = alone["cue"]["goal"]["top1"] - alone[row["method"]]["goal"]["top1"]
+        assert row["difference"]["goal"]["value"] == pytest.approx(wanted)
+    # The same from answers, and from documents of earlier evaluations.
+    answers = {event.id: phase.infer(event, method="cue") for event in events}
+    again = phase.evaluate(answers, events, name="mine", compare={"a": alone["chance"], "b": answers})
+    assert again["comparison"][1]["difference"] == found["comparison"][1]["difference"]
+    assert again["comparison"][2]["difference"]["goal"] == {"value": 0, "low": 0, "high": 0}
+    moved = phase.evaluate("still", events, task="trajectories", compare=["constant-velocity"])
+    assert set(moved["comparison"][1]["difference"]) == {"ade", "fde"}
+    with pytest.raises(phase.PhaseError, match="same events"):
+        phase.evaluate("cue", [event], compare={"chance": alone["chance"]})
+    for wrong in ("chance", 7, ["oracle"], {"a": 7}, {"a": {event.id: 7}}, {"a": phase.evaluate("still", [event], task="trajectories")}):
+        with pytest.raises(phase.PhaseError):
+            phase.evaluate("cue", [event], compare=wrong)
+
+
+def test_every_method_is_there_by_name(event):
+    """All that methods() lists; networks are not listed without being there."""
+    for method in phase.methods()["goals"]:
+        if not method.startswith("simple"):
+            assert phase.infer(event, method=method)["relation"]
+    assert "simple" in phase.methods()["goals"] and "simple" in phase.methods()["trajectories"]
+    for method in phase.methods()["trajectories"]:
+        if not method.startswith("simple"):
+            assert phase.forecast(event, method=method)["forecast"].shape == (3, 20, 2)
+
+
+def test_errors_name_arguments(event, tmp_path):
+    """The words of Python: no options of the command line, no files that the caller has not named."""
+    right = phase.infer(event, method="chance")
+    refusals = {
+        "method is simple or .* not 'oracle'": lambda: phase.infer(event, method="oracle"),
+        "method is .* not 'cue'": lambda: phase.forecast(event, method="cue"),
+        "predictions is simple or .* not 'oracle'": lambda: phase.evaluate("oracle", [event]),
+        "split is train or validation or test, not 'all'": lambda: phase.evaluate("chance", [event], split="all"),
+        "split needs a dataset": lambda: phase.evaluate("chance", [event], split="test"),
+        "predictions: has no answer to 1 of the 1 events of events.json: event; it has other": lambda: phase.evaluate(
+            {"other": right}, [event]
+        ),
+        "predictions: event event: field `relation`": lambda: phase.evaluate({event.id: {"goals": [[], []]}}, [event]),
+        "compare: event event: field `relation`": lambda: phase.evaluate("cue", [event], compare={"a": {event.id: {"goals": [[], []]}}}),
+        "ratings are of relations": lambda: phase.evaluate("still", [event], task="trajectories", ratings=tmp_path / "x"),
+        "preset: unknown preset": lambda: phase.generate("none", out=tmp_path / "x"),
+        "compare is a list": lambda: phase.evaluate("chance", [event], compare="cue"),
+    }
+    for sentence, use in refusals.items():
+        with pytest.raises(phase.PhaseError, match=sentence) as refused:
+            use()
+        assert "--" not in str(refused.value) and "predictions.json" not in str(refused.value), refused.value
+
+
+def test_progress_is_shown_if_it_is_wanted(event, capfd):
+    phase.evaluate("cue", [event])
+    assert capfd.readouterr() == ("", "")
+    phase.evaluate("cue", [event], quiet=False)
+    shown = capfd.readouterr()
+    assert "evaluating cue on 1 event" in shown.err and "cue" in shown.out
+
+
 @pytest.mark.parametrize("name", ["org/model", "../../x", "events", "results", "a b", "-x", "Ünï", "."])
 def test_the_name_of_a_method_names_no_file(name, event, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
@@ -217,6 +288,126 @@ def test_datasets_are_generated_and_read(tmp_path):
         events[3]
 
 
+def test_arrays_are_what_the_file_says(event):
+    """Members of the JSON, read by hand."""
+    (document,) = json.loads(event.to_json())["events"]
+    found = phase.events.arrays(event)
+    assert found["radii"].tolist() == [np.float32(one["radius"]) for one in document["agents"] + document["objects"]]
+    assert np.allclose(found["walls"], np.array(document["walls"]).reshape(-1, 2, 2), atol=1e-4)
+    assert np.allclose(found["landmarks"], document["landmarks"], atol=1e-4)
+    assert [phase.GOALS[k] for k in found["goals"]] == [one["goal"] for one in document["agents"]]
+    assert phase.RELATIONS[found["relation"]] == document["relation"] and phase.KINDS[found["kind"]] == document["event"]
+    assert found["attitudes"].tolist() == [one["alpha"] for one in document["agents"]]
+    assert found["strength_levels"].tolist() == [one["strength_level"] for one in document["agents"]]
+    rows = np.array(document["trajectory"]["agents"] + document["trajectory"]["objects"], dtype=np.float32)
+    assert np.array_equal(found["trajectory"], rows.transpose(1, 0, 2))
+    assert [phase.ACTIONS[k] for k in found["actions"][3]] == document["actions"][3]
+
+
+def test_batches_of_arrays(event):
+    short = phase.simulate(phase.sample_scene("chasing", seed=1), seed=2, max_steps=7, parameters=QUICK, id="short")
+    batch = phase.events.tensors([event, short])
+    assert batch["id"] == [event.id, "short"]
+    for k, one in enumerate((event, short)):
+        rows, entities, walls = batch["mask"][k], batch["entities"][k], batch["wall_mask"][k]
+        assert np.array_equal(batch["trajectory"][k][rows][:, entities], one.trajectory)
+        assert np.array_equal(batch["radii"][k][entities], one.observed.radii)
+        assert np.array_equal(batch["walls"][k][walls], one.observed.walls)
+        assert np.array_equal(batch["goals"][k], one.goal_indices)
+        assert not batch["trajectory"][k][~rows].any() and not batch["radii"][k][~entities].any()
+    assert (batch["actions"][1, short.steps :] == -1).all() and (batch["actions"][1, : short.steps] >= 0).all()
+    seen = phase.events.tensors([event.observed, short.observed])
+    assert batch.keys() - seen.keys() == {"goals", "relation", "kind", "attitudes", "strength_levels", "actions"}
+    assert all(np.array_equal(seen[name], batch[name]) for name in seen)
+    with pytest.raises(phase.PhaseError, match="labels"):
+        phase.events.tensors([event, short.observed])
+
+
+def test_goals_have_numbers():
+    assert len(phase.GOALS) == 34
+    for k, goal in enumerate(phase.GOALS):
+        assert phase.goal_index(goal) == k
+        assert phase.goal_index({**goal, "sign": -goal["sign"]}) == (k + 17) % 34
+    assert phase.goal_index({"kind": "touch", "agent": 1, "other": 0, "sign": 1}) == 16
+    for wrong in ({"kind": "touch", "agent": 0, "other": 0, "sign": 1}, {"kind": "fly"}, 7, None):
+        with pytest.raises(phase.PhaseError, match="goal"):
+            phase.goal_index(wrong)
+
+
+def test_answers_from_arrays(event):
+    shares = np.zeros((2, 34), dtype=np.float32)
+    shares[[0, 1], event.goal_indices] = 0.75
+    shares[:, 33] = 0.25
+    relation = [0.5, 0.25, 0.25]
+    found = phase.answer(shares, relation, [[1, 0], [0, 0]])
+    assert [goals[0] for goals in found["goals"]] == [{"goal": goal, "p": 0.75} for goal in event.goals]
+    assert found["relation"] == {"friendly": 0.5, "adversarial": 0.25, "neutral": 0.25}
+    scores = phase.evaluate({event.id: found}, [event])
+    assert scores["goal"]["top1"] == 1 and scores["relation"]["accuracy"] == (event.relation == "friendly")
+    # 32-bit numbers that add up to a little more than 1.
+    logits = np.random.default_rng(1).normal(size=(2, 34)).astype(np.float32)
+    exponents = np.exp(logits)
+    phase.evaluate({event.id: phase.answer(exponents / exponents.sum(1, keepdims=True) * np.float32(1.00001), relation)}, [event])
+    for wrong in (shares[0], shares * 2, -shares, shares * np.nan, "x"):
+        with pytest.raises(phase.PhaseError, match="goals"):
+            phase.answer(wrong, relation)
+
+
+def test_a_viewer_sees_no_labels(event, tmp_path):
+    seen = event.observed
+    labels = ("goals", "attitudes", "relation", "kind", "actions", "thoughts", "scene", "substeps", "strength_levels", "to_json", "goal_indices")
+    assert not [name for name in labels if hasattr(seen, name)]
+    assert (seen.id, seen.steps) == (event.id, event.steps)
+    assert phase.infer(seen, steps=15) == phase.infer(event, steps=15)
+    assert np.array_equal(phase.forecast(seen, method="still")["forecast"], phase.forecast(event, method="still")["forecast"])
+    assert np.array_equal(seen.picture(3, side=64), event.picture(3, side=64))
+    watching = phase.Observer(seen)
+    assert watching.push(seen.trajectory[1]) == phase.Observer(event.scene, event.trajectory[0]).push(event.trajectory[1])
+    # Motion of one's own, without any labels.
+    levels = seen.size_levels.tolist()
+    mine = phase.ObservedEvent(seen.layout, levels[:2], levels[2:], seen.trajectory, id="mine")
+    assert phase.infer(mine, method="intent-network") == phase.infer(event, method="intent-network")
+    mine.save_video(tmp_path / "mine.mp4", side=64)
+    copied = pickle.loads(pickle.dumps(seen))
+    assert np.array_equal(copied.trajectory, seen.trajectory) and np.array_equal(copied.walls, seen.walls)
+    assert seen.prefix(4).trajectory.shape[0] == 5
+    outside = seen.trajectory.copy()
+    outside[2, 0, 0] = 40
+    for layout, agents, objects, rows, rule in (
+        ((22, None), levels[:2], levels[2:], seen.trajectory, "layout"),
+        ((0, 4), levels[:2], levels[2:], seen.trajectory, "reflection"),
+        ((0, None), [0], levels[2:], seen.trajectory, "agent_size_levels"),
+        ((0, None), [0, 4], levels[2:], seen.trajectory, "size level"),
+        ((0, None), levels[:2], [0, 0, 0], seen.trajectory, "objects"),
+        ((0, None), levels[:2], levels[2:], seen.trajectory[0], "trajectory"),
+        ((0, None), levels[:2], levels[2:], seen.trajectory[:, :2], "trajectory"),
+        ((0, None), levels[:2], levels[2:], seen.trajectory[:0], "row"),
+        ((0, None), levels[:2], levels[2:], outside, r"trajectory\[2, 0\]"),
+        ((0, None), levels[:2], levels[2:], outside * np.nan, "finite"),
+    ):
+        with pytest.raises(phase.PhaseError, match=rule):
+            phase.ObservedEvent(layout, agents, objects, rows)
+
+
+def test_files_without_labels(event, tmp_path):
+    document = json.loads(event.to_json())
+    (one,) = document["events"]
+    # What a viewer sees, and nothing else.
+    one = {name: one[name] for name in ("id", "layout", "agents", "objects", "trajectory")}
+    one["agents"] = [{"size_level": agent["size_level"]} for agent in one["agents"]]
+    file = tmp_path / "seen.json"
+    file.write_text(json.dumps(dict(document, events=[one])))
+    (read,) = phase.load_observed(file)
+    assert np.array_equal(read.trajectory, event.trajectory) and read.layout == event.observed.layout
+    event.save(tmp_path / "whole.json")
+    assert np.array_equal(phase.load_observed(tmp_path / "whole.json")[0].walls, read.walls)
+    with pytest.raises(phase.PhaseError, match="seen.json: event event: .*strength_level"):
+        phase.load_events(file)
+    for wrong in (tmp_path, tmp_path / "nowhere.json"):
+        with pytest.raises(phase.PhaseError, match=str(wrong)):
+            phase.load_observed(wrong)
+
+
 def test_tables(event):
     pandas = pytest.importorskip("pandas")
     table = phase.events.to_pandas([event])
@@ -230,6 +421,23 @@ def test_pictures_and_videos(event, tmp_path):
     picture = event.picture(0, side=100)
     assert picture.shape == (100, 100, 3) and picture.dtype == np.uint8
     assert (picture != event.picture(side=100)).any()
+    frames = event.frames(4, side=64)
+    assert frames.shape == (4, 64, 64, 3)
+    assert np.array_equal(frames[0], event.picture(0, side=64)) and np.array_equal(frames[-1], event.picture(side=64))
+    assert np.array_equal(event.frames([0, -1], side=64), frames[[0, -1]])
+    assert len(event.frames(side=64)) == event.steps + 1
+    # A clip has the substeps: frame 5 t is the state after step t.
+    clip = event.clip(side=64)
+    assert len(clip) == 5 * event.steps + 1
+    assert np.array_equal(event.clip(5, 12, side=64), clip[5:12])
+    assert np.array_equal(clip[0], frames[0]) and (clip[5] != clip[4]).any()
+    other = event.picture(0, side=64, palette="accessible")
+    assert (other != frames[0]).any()
+    for wrong in ({"rows": 0}, {"rows": [1000]}, {"rows": 1.5}, {"palette": "loud"}, {"side": 63}, {"rows": range(10_000), "side": 2000}):
+        with pytest.raises(phase.PhaseError):
+            event.frames(**wrong)
+    with pytest.raises(phase.PhaseError, match="stop"):
+        event.clip(5, 4)
     event.save_video(tmp_path / "event.mp4", side=100)
     assert (tmp_path / "event.mp4").read_bytes()[4:8] == b"ftyp"
     with pytest.raises(phase.PhaseError):

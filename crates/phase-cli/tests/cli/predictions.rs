@@ -188,7 +188,12 @@ fn rubbish_is_refused_in_one_sentence() {
             json!("one"),
             "event one: field `id` must differ from that of every other event, and not in case alone",
         ),
-        ("both", "/events/1/id", json!("tow"), "has no event \"two\"; it has tow, one"),
+        (
+            "both",
+            "/events/1/id",
+            json!("tow"),
+            "has no answer to 1 of the 2 events of events.json: two; it has tow, one",
+        ),
         ("goals", "/events/1/goals/1", json!({}), "event two: field `goals[1]` must be an array, not {}"),
         (
             "goals",

@@ -19,3 +19,4 @@ pub use report_training::{Protocol, ProtocolError, REPORT_TRAINING_FORMAT, Repor
 pub use roles::RoleScores;
 pub use sets::SetScores;
 pub use summary::{RELATIONS, RecognitionScores, RecognitionSummary};
+pub(crate) use summary::{goals_among, says};

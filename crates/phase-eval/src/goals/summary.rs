@@ -30,17 +30,11 @@ impl RecognitionScores {
     /// Scores some answers; `None` without any.
     fn of(answers: &[(&Answer, &Label)], seed: u64) -> Option<Self> {
         let top = |k: usize| {
-            let right = |&(answer, label): &(&Answer, &Label)| {
-                let among =
-                    |&agent: &AgentId| answer.place(agent, label.goals[agent]).is_some_and(|place| place < k);
-                AgentId::ALL.into_iter().filter(among).count() as f64 / AGENT_COUNT as f64
-            };
-            Estimate::of(&answers.iter().map(right).collect::<Vec<f64>>(), seed)
+            let right = answers.iter().map(|&(answer, label)| goals_among(answer, label, k));
+            Estimate::of(&right.collect::<Vec<f64>>(), seed)
         };
         let related = |wanted: fn(&Label) -> Option<Relation>| {
-            let right = |&(answer, label): &(&Answer, &Label)| {
-                Some(f64::from(u8::from(answer.relation.most_likely() == wanted(label)?)))
-            };
+            let right = |&(answer, label): &(&Answer, &Label)| Some(says(answer, wanted(label)?));
             Estimate::of(&answers.iter().filter_map(right).collect::<Vec<f64>>(), seed)
         };
         Some(Self {
@@ -52,6 +46,17 @@ impl RecognitionScores {
             relation_human: related(|label| label.relation_human),
         })
     }
+}
+
+/// The share of both agents whose correct goal is among the k most likely.
+pub(crate) fn goals_among(answer: &Answer, label: &Label, k: usize) -> f64 {
+    let among = |&agent: &AgentId| answer.place(agent, label.goals[agent]).is_some_and(|place| place < k);
+    AgentId::ALL.into_iter().filter(among).count() as f64 / AGENT_COUNT as f64
+}
+
+/// 1 if this is the most likely relation, else 0.
+pub(crate) fn says(answer: &Answer, relation: Relation) -> f64 {
+    f64::from(u8::from(answer.relation.most_likely() == relation))
 }
 
 /// Accuracy of a method.

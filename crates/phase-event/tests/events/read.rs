@@ -1,7 +1,7 @@
 //! The rules for files, and the messages for files that violate them.
 
 use crate::support::file;
-use phase_event::{EventReadError, Recording, parse};
+use phase_event::{EventReadError, Recording, parse, parse_observed};
 use phase_model::{
     Action, Attitude, EventKind, Goal, LandmarkId, ObjectId, Relation, Sign, Size, Strength, Vec2,
     json::JsonError,
@@ -48,6 +48,33 @@ fn every_field_arrives() {
     let recovered = recording.recovered_actions.as_ref().expect("recovered actions");
     assert_eq!(recovered.steps, [[Action::Up, Action::NoForce], [Action::Attach, Action::TurnLeft]]);
     assert!(recording.simulation.is_none());
+}
+
+#[test]
+fn a_viewer_needs_no_labels() {
+    let seen = parse_observed(file().to_string().as_bytes()).expect("a good file");
+    let recording = &parse_value(&file()).expect("a good file")[0];
+    assert_eq!(seen, [("made-up-1".to_owned(), recording.observed().expect("is sound"))]);
+    let mut value = file();
+    let event = value["events"][0].as_object_mut().expect("an event");
+    ["event", "relation", "relation_human", "recovered_actions"].iter().for_each(|key| {
+        event.remove(*key).expect("a label");
+    });
+    for agent in event["agents"].as_array_mut().expect("agents") {
+        let agent = agent.as_object_mut().expect("an agent");
+        ["goal", "alpha", "strength_level"].iter().for_each(|key| {
+            agent.remove(*key).expect("a label");
+        });
+        agent.remove("max_force");
+    }
+    assert_eq!(parse_observed(value.to_string().as_bytes()), Ok(seen));
+    // What can be seen is checked as ever.
+    value["events"][0]["trajectory"]["agents"][1][0][0] = json!(40);
+    let error = parse_observed(value.to_string().as_bytes()).expect_err("outside the arena").to_string();
+    assert!(error.contains("made-up-1") && error.contains("trajectory.agents[1][0]"), "{error}");
+    value["events"][0]["agents"][0]["size_level"] = json!(7);
+    let error = parse_observed(value.to_string().as_bytes()).expect_err("no such size").to_string();
+    assert!(error.contains("agents[0].size_level"), "{error}");
 }
 
 #[test]

@@ -11,7 +11,7 @@ mod read;
 mod write;
 
 use crate::{
-    Scene, SceneError,
+    AGENT_COUNT, Layout, Scene, SceneError, Size,
     json::{self, Field, FieldError, JsonError},
 };
 use serde::{Deserialize, Deserializer, Serialize, Serializer, de, ser};
@@ -32,6 +32,10 @@ pub enum SceneReadError {
     #[error(transparent)]
     Scene(#[from] SceneError),
 }
+
+/// Layout, sizes of the agents, and sizes of the objects, of which there are at most two: all of a scene that
+/// can be seen beside its motion.
+pub type LayoutAndSizes = (Layout, [Size; AGENT_COUNT], Vec<Size>);
 
 /// The location of each body's start pose.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -93,6 +97,15 @@ impl Scene {
     /// [`FieldError`] names the member and the rule that is violated.
     pub fn from_members(object: &Field<'_>, starts: Starts) -> Result<Self, FieldError> {
         read::scene(object, starts)
+    }
+
+    /// Layout and sizes among the members of an object, which has the form of an event and may lack labels:
+    /// `event`, and goals, attitudes and strengths of agents.
+    ///
+    /// # Errors
+    /// [`FieldError`] names the member and the rule that is violated.
+    pub fn layout_and_sizes(object: &Field<'_>) -> Result<LayoutAndSizes, FieldError> {
+        read::layout_and_sizes(object)
     }
 
     /// The scene as JSON in one line; reading it restores the same scene bit for bit.

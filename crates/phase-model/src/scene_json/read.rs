@@ -1,6 +1,6 @@
 //! From JSON to a scene; every level is checked against the redundant members that repeat it.
 
-use super::Starts;
+use super::{LayoutAndSizes, Starts};
 use crate::{
     AGENT_COUNT, AgentId, AgentSpec, Attitude, Body, EventKind, Flip, Goal, LandmarkId, Layout, MAX_OBJECTS,
     ObjectId, ObjectSpec, Scene, Segment, Sign, Size, Strength, Vec2, arena,
@@ -9,26 +9,44 @@ use crate::{
 
 /// Tolerance of a redundant number.
 const TOLERANCE: f32 = 1e-3;
+/// The members of an agent, and of an object, beside its start.
+const AGENT: &[&str] = &["radius", "size_level", "max_force", "strength_level", "goal", "alpha"];
+const OBJECT: &[&str] = &["radius", "size_level"];
 
 pub(super) fn scene(event: &Field<'_>, starts: Starts) -> Result<Scene, FieldError> {
     let layout = layout(event)?;
-    let agents = event.required("agents")?;
-    let found = agents.items()?;
-    if found.len() != AGENT_COUNT {
-        return Err(agents.error(format!("must hold {AGENT_COUNT} agents, not {}", found.len())));
-    }
-    let agents: Vec<AgentSpec> = found.map(|field| agent(&field, starts)).collect::<Result<_, _>>()?;
-    let objects = event.required("objects")?;
-    let found = objects.items()?;
-    if found.len() > MAX_OBJECTS {
-        return Err(objects.error(format!("must hold at most {MAX_OBJECTS} objects, not {}", found.len())));
-    }
+    let (agents, objects) = bodies(event)?;
+    let agents: Vec<AgentSpec> = agents.iter().map(|field| agent(field, starts)).collect::<Result<_, _>>()?;
     Ok(Scene {
         layout,
         agents: core::array::from_fn(|i| agents[i]),
-        objects: found.map(|field| object(&field, starts)).collect::<Result<_, _>>()?,
+        objects: objects.iter().map(|field| object(field, starts)).collect::<Result<_, _>>()?,
         kind: event.required("event")?.one_of(&EventKind::ALL.map(|kind| (kind.name(), kind)))?,
     })
+}
+
+pub(super) fn layout_and_sizes(event: &Field<'_>) -> Result<LayoutAndSizes, FieldError> {
+    let layout = layout(event)?;
+    let (agents, objects) = bodies(event)?;
+    agents.iter().try_for_each(|agent| agent.only(&[AGENT, &["controller"]].concat()))?;
+    objects.iter().try_for_each(|object| object.only(OBJECT))?;
+    let agents = agents.iter().map(size).collect::<Result<Vec<_>, _>>()?;
+    Ok((layout, core::array::from_fn(|i| agents[i]), objects.iter().map(size).collect::<Result<_, _>>()?))
+}
+
+/// The fields of the agents and of the objects, of which there may be as many.
+fn bodies<'a>(event: &Field<'a>) -> Result<(Vec<Field<'a>>, Vec<Field<'a>>), FieldError> {
+    let agents = event.required("agents")?;
+    let found: Vec<_> = agents.items()?.collect();
+    if found.len() != AGENT_COUNT {
+        return Err(agents.error(format!("must hold {AGENT_COUNT} agents, not {}", found.len())));
+    }
+    let objects = event.required("objects")?;
+    let those: Vec<_> = objects.items()?.collect();
+    if those.len() > MAX_OBJECTS {
+        return Err(objects.error(format!("must hold at most {MAX_OBJECTS} objects, not {}", those.len())));
+    }
+    Ok((found, those))
 }
 
 fn layout(event: &Field<'_>) -> Result<Layout, FieldError> {
@@ -62,11 +80,10 @@ fn layout(event: &Field<'_>) -> Result<Layout, FieldError> {
 }
 
 fn agent(field: &Field<'_>, starts: Starts) -> Result<AgentSpec, FieldError> {
-    let keys: &[&str] = &["radius", "size_level", "max_force", "strength_level", "goal", "alpha"];
     match starts {
         // Of an event it is known who moved the agent; a scene leaves that open.
-        Starts::Elsewhere => field.only(&[keys, &["controller"]].concat())?,
-        Starts::Members => only(field, keys, starts)?,
+        Starts::Elsewhere => field.only(&[AGENT, &["controller"]].concat())?,
+        Starts::Members => only(field, AGENT, starts)?,
     }
     let size = size(field)?;
     let level = field.required("strength_level")?.whole(0, 3)?;
@@ -83,7 +100,7 @@ fn agent(field: &Field<'_>, starts: Starts) -> Result<AgentSpec, FieldError> {
 }
 
 fn object(field: &Field<'_>, starts: Starts) -> Result<ObjectSpec, FieldError> {
-    only(field, &["radius", "size_level"], starts)?;
+    only(field, OBJECT, starts)?;
     Ok(ObjectSpec { size: size(field)?, start: start(field, starts)? })
 }
 

@@ -15,30 +15,37 @@ agent at angle 0 faces up. Arrays have agents first, then objects, both by numbe
 
 from ._native import ACTIONS, OBSERVATION_SIZE, PhaseError, Scene
 from .command import evaluate, generate, run
-from .events import Event, Events, load_events, simulate
+from .events import RELATIONS, Event, Events, ObservedEvent, load_events, load_observed, simulate
 from .observation import split_observation
-from .perception import Observer, forecast, infer, methods
+from .perception import GOALS, Observer, answer, forecast, goal_index, infer, methods
 from .policies import HeuristicPolicy, Mind, RandomPolicy, ReplayPolicy, StillPolicy
-from .scenes import sample_scene, scene
+from .scenes import KINDS, sample_scene, scene
 
 __all__ = [
     "ACTIONS",
+    "GOALS",
+    "KINDS",
     "OBSERVATION_SIZE",
+    "RELATIONS",
     "Event",
     "Events",
     "HeuristicPolicy",
     "Mind",
+    "ObservedEvent",
     "Observer",
     "PhaseError",
     "RandomPolicy",
     "ReplayPolicy",
     "Scene",
     "StillPolicy",
+    "answer",
     "evaluate",
     "forecast",
     "generate",
+    "goal_index",
     "infer",
     "load_events",
+    "load_observed",
     "methods",
     "run",
     "sample_scene",

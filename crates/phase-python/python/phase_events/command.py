@@ -1,7 +1,9 @@
 """The command line from within Python: datasets and evaluations."""
 
+import contextlib
 import json
 import os
+import re
 import tempfile
 from collections.abc import Mapping
 from pathlib import Path
@@ -14,6 +16,13 @@ from .perception import methods
 
 MOST_JOBS = 1024
 """The greatest number of events that are worked on at once."""
+SPLITS = ("train", "validation", "test")
+"""The parts of a dataset."""
+MEASURES = {
+    "phase-eval-goals/1": {"goal": ("goal", "top1"), "relation": ("relation", "accuracy")},
+    "phase-eval-trajectories/1": {"ade": ("ade", "all"), "fde": ("fde", "all")},
+}
+"""The measures by which methods are compared, and where results of each format have them."""
 
 
 def run(*arguments):
@@ -81,36 +90,59 @@ def generate(preset="demo", events=None, out=None, *, shard=None, seed=None, vid
         arguments.append("--quiet")
     if not isinstance(options, (tuple, list)):
         raise PhaseError(f"options is a list of options and their values, not {options!r}")
-    _run([*arguments, *options], silent=quiet)
+    with _pythons_words(("preset", "events", "out", "shard", "seed", "jobs")):
+        _run([*arguments, *options], silent=quiet)
     return Path(os.fsdecode(out))
 
 
-def evaluate(predictions, events, *, task="goals", split=None, ratings=None, seed=1, name="predictions", out=None):
-    """Scores answers with the metrics of the benchmark (docs/how-to/benchmark.md).
+def evaluate(
+    predictions,
+    events,
+    *,
+    task="goals",
+    split=None,
+    ratings=None,
+    seed=1,
+    name="predictions",
+    out=None,
+    compare=(),
+    jobs=None,
+    quiet=True,
+):
+    """Scores answers with the metrics of the benchmark (docs/how-to/benchmark.md), and compares them with others'.
 
-    >>> answers = {event.id: infer(event) for event in events}   # doctest: +SKIP
-    >>> evaluate(answers, events)["goal"]["top1"]                # doctest: +SKIP
+    >>> answers = {event.id: infer(event) for event in events}                     # doctest: +SKIP
+    >>> found = evaluate(answers, events, compare=["intent-network", "chance"])    # doctest: +SKIP
+    >>> found["goal"]["top1"], found["comparison"][1]["difference"]                # doctest: +SKIP
 
     Args:
-        predictions: a dict from ids of events to answers: for ``goals`` as :func:`infer` gives them, for ``trajectories`` as
-            :func:`forecast` does; or the name of one of PHASE's methods, which is asked then.
+        predictions: a dict from ids of events to answers: for ``goals`` as :func:`infer` and :func:`answer` give them, for
+            ``trajectories`` as :func:`forecast` does; or the name of one of PHASE's :func:`methods`, which is asked then.
         events: the path of a file or a dataset, or a list of events.
         task: ``goals`` or ``trajectories``.
         split: ``train``, ``validation`` or ``test`` of a dataset; ``None`` for all of its events.
-        ratings: a file in the format ``phase-ratings/1``, to compare the answers with people's.
+        ratings: a file in the format ``phase-ratings/1``, to compare the answers with people's; of ``goals`` only.
         seed: a whole number from 0 to 2**64 - 1, for the random draws of the intervals and of a method.
         name: the name of the predictions in the report.
         out: a folder that keeps results and report; ``None`` keeps nothing.
+        compare: others on the same events: a list of names of methods, or a dict from names to what ``predictions`` may be, or to the
+            document of an earlier evaluation.
+        jobs: the number of events that a method is asked about at once; ``None`` for one a core.
+        quiet: whether to print neither progress (on stderr) nor the table of scores (on stdout).
 
     Returns:
-        the document ``phase-eval-goals/1`` or ``phase-eval-trajectories/1`` as a dict (docs/reference/formats/evaluation.md): ``goal``, ``relation``,
-        ``roles``, ``calibration``, … or ``agents``, ``entities``, …, and every answer in ``events``.
+        the document ``phase-eval-goals/1`` or ``phase-eval-trajectories/1`` as a dict (docs/reference/formats/evaluation.md): ``goal``,
+        ``relation``, ``roles``, ``calibration``, … or ``ade``, ``fde``, …, and every answer in ``events``. With ``compare`` also
+        ``comparison``, a list of rows, one for the predictions and one for each of the others: ``method``, the estimates (``value``,
+        ``low``, ``high``) ``goal`` and ``relation``, or ``ade`` and ``fde``, and in ``difference`` the same of the predictions' scores less
+        the other's, whose intervals are those of a paired bootstrap over events (``None`` in the first row).
 
     Raises:
-        PhaseError: if an event has no answer, an answer is invalid, or a file cannot be read.
+        PhaseError: if events have no answer (it says which), an answer is invalid, or a file cannot be read.
     """
     choice("task", task, tuple(methods()))
-    with tempfile.TemporaryDirectory() as folder:
+    others = _others(compare)
+    with tempfile.TemporaryDirectory() as folder, _pythons_words(("events", "out", "seed", "split", "ratings", "jobs"), folder):
         folder = Path(folder)
         if isinstance(events, (str, bytes, os.PathLike)):
             events = path_of(events)
@@ -119,28 +151,84 @@ def evaluate(predictions, events, *, task="goals", split=None, ratings=None, see
             file = folder / "events.json"
             save_events(events, file)
             events = os.fspath(file)
-        kept = Path(path_of(out)) if out is not None else folder / "results"
-        arguments = ["eval", task, f"--events={events}", f"--out={kept}", f"--seed={seed_of(seed)}", "--quiet"]
-        if isinstance(predictions, str):
-            arguments.append(f"--method={text('predictions', predictions)}")
-        else:
-            file = folder / "predictions.json"
-            _native.write_text(os.fspath(file), _document(predictions, text("name", name)))
-            arguments.append(f"--predictions={file}")
+        options = [f"--events={events}", f"--seed={seed_of(seed)}"]
+        if quiet:
+            options.append("--quiet")
         if split is not None:
-            arguments.append(f"--split={text('split', split)}")
+            options.append(f"--split={choice('split', split, SPLITS)}")
         if ratings is not None:
-            arguments.append(f"--ratings={path_of(ratings)}")
-        _run(arguments, silent=True)
-        return json.loads((kept / "results.json").read_text(encoding="utf-8"))
+            if task != "goals":
+                raise PhaseError("ratings are of relations, which only the task goals is about")
+            options.append(f"--ratings={path_of(ratings)}")
+        if jobs is not None:
+            options.append(f"--jobs={whole('jobs', jobs, 1, MOST_JOBS)}")
+
+        def score(given, name, argument, kept):
+            """The results of a method or of answers."""
+            arguments = ["eval", task, f"--out={kept}", *options]
+            if isinstance(given, str):
+                arguments.append(f"--method={choice(argument, given, methods()[task])}")
+            else:
+                file = folder / f"{argument}.json"
+                _native.write_text(os.fspath(file), _document(given, name, argument))
+                arguments.append(f"--predictions={file}")
+            _run(arguments, silent=quiet)
+            return json.loads((kept / "results.json").read_text(encoding="utf-8"))
+
+        results = score(predictions, text("name", name), "predictions", Path(path_of(out)) if out is not None else folder / "results")
+        if others:
+            rows = [_row(predictions if isinstance(predictions, str) else name, results, None)]
+            for k, (other, given) in enumerate(others.items()):
+                document = given
+                if not (isinstance(given, Mapping) and "format" in given):
+                    document = score(given, other, "compare", folder / f"other{k}")
+                difference = _native.compare(task, json.dumps(results), to_json("compare", document), seed_of(seed))
+                rows.append(_row(other, document, json.loads(difference)))
+            results["comparison"] = rows
+        return results
 
 
-def _document(predictions, name):
+def _others(compare):
+    """What is compared, by name."""
+    if isinstance(compare, Mapping):
+        return {text("a name in compare", name): given for name, given in compare.items()}
+    if isinstance(compare, (str, bytes)) or not hasattr(compare, "__iter__"):
+        raise PhaseError(f"compare is a list of names of methods, or a dict, not {compare!r}")
+    return {text("a name in compare", name): name for name in compare}
+
+
+def _row(name, results, difference):
+    """A row of a comparison: the scores of results, as estimates."""
+    members = MEASURES[results["format"]]
+    row = {"method": name}
+    for measure, (group, member) in members.items():
+        low, high = results["intervals"][group][member]
+        row[measure] = {"value": results[group][member], "low": low, "high": high}
+    return row | {"difference": difference}
+
+
+@contextlib.contextmanager
+def _pythons_words(arguments, folder=None):
+    """Errors of the command line in the words of a function: its arguments are not options, and files of its own have no names."""
+    try:
+        yield
+    except PhaseError as error:
+        sentence = re.sub(r"--(\w+)", lambda option: option[1] if option[1] in arguments else option[0], str(error))
+        if folder is not None:
+            sentence = re.sub(re.escape(f"{folder}{os.sep}") + r"(\w+)\.json", r"\1", sentence)
+        if sentence == str(error):
+            raise
+        mended = PhaseError(sentence)
+        mended.__dict__.update(error.__dict__)
+        raise mended from None
+
+
+def _document(predictions, name, argument):
     """Predictions as the command line reads them."""
     if not isinstance(predictions, Mapping):
-        raise PhaseError(f"predictions are a dict from ids to answers, or the name of a method, not {type(predictions).__name__}")
+        raise PhaseError(f"{argument}: answers are a dict from ids to answers, or the name of a method, not {type(predictions).__name__}")
     wrong = next((id for id, answer in predictions.items() if not isinstance(answer, Mapping)), None)
     if wrong is not None:
-        raise PhaseError(f"predictions: the answer for {wrong!r} is a dict, not {type(predictions[wrong]).__name__}")
+        raise PhaseError(f"{argument}: the answer for {wrong!r} is a dict, not {type(predictions[wrong]).__name__}")
     events = [dict(answer, id=id) for id, answer in predictions.items()]
-    return to_json("predictions", {"method": name, "events": events})
+    return to_json(argument, {"method": name, "events": events})

@@ -2,10 +2,10 @@
 
 import torch
 
-from ._native import PhaseError
+from .events import RELATIONS, arrays, pad
+from .scenes import KINDS
 
-KINDS = ("helping", "hindering", "chasing", "competing", "collaborating", "independent")
-RELATIONS = ("friendly", "adversarial", "neutral")
+__all__ = ["KINDS", "RELATIONS", "EventDataset", "collate"]
 
 
 class EventDataset(torch.utils.data.Dataset):
@@ -15,11 +15,10 @@ class EventDataset(torch.utils.data.Dataset):
     >>> loader = torch.utils.data.DataLoader(data, batch_size=8, collate_fn=collate)      # doctest: +SKIP
 
     Args:
-        events: a sequence of :class:`Event`.
+        events: a sequence of :class:`phase_events.Event`, or of :class:`phase_events.ObservedEvent`, which have no labels.
 
-    An item is a dict of tensors: ``trajectory`` (T + 1, entities, 5) float32, columns x, y (u), vx, vy (u/s), angle (rad); ``actions``
-    (T, 2) int64, -1 where there is none; ``kind``, an index of ``KINDS``; ``relation``, an index of ``RELATIONS``; ``attitudes`` (2,).
-    :func:`collate` makes batches of them.
+    An item has the members, shapes and types of :func:`phase_events.events.arrays`, as tensors; ``id`` is text. :func:`collate` makes
+    batches of them.
     """
 
     def __init__(self, events):
@@ -29,45 +28,21 @@ class EventDataset(torch.utils.data.Dataset):
         return len(self._events)
 
     def __getitem__(self, index):
-        event = self._events[index]
-        actions = torch.full((event.steps, 2), -1, dtype=torch.int64)
-        if event.actions is not None:
-            actions[: len(event.actions)] = torch.from_numpy(event.actions)
-        return {
-            "trajectory": torch.from_numpy(event.trajectory.copy()),
-            "actions": actions,
-            "kind": torch.tensor(KINDS.index(event.kind)),
-            "relation": torch.tensor(RELATIONS.index(event.relation)),
-            "attitudes": torch.tensor(event.attitudes),
-        }
+        return _tensors(arrays(self._events[index]))
 
 
 def collate(items):
-    """A batch of items, padded with 0 (actions with -1) to the longest event and to four entities.
+    """A batch of items, with the members, shapes, types and masks of :func:`phase_events.events.pad`, as tensors.
 
     Args:
         items: at least one item of an :class:`EventDataset`.
 
-    Returns:
-        a dict of the members of an item with a first dimension of N items, and of ``mask`` (N, T + 1) and ``entities`` (N, 4), which are
-        true where there is a row and an entity.
-
     Raises:
-        PhaseError: for an empty batch.
+        PhaseError: for an empty batch, and if some items have labels and some have none.
     """
-    if not items:
-        raise PhaseError("a batch has at least one event")
-    longest = max(len(item["trajectory"]) for item in items)
-    count = len(items)
-    trajectory = torch.zeros(count, longest, 4, 5)
-    mask = torch.zeros(count, longest, dtype=torch.bool)
-    entities = torch.zeros(count, 4, dtype=torch.bool)
-    actions = torch.full((count, longest - 1, 2), -1, dtype=torch.int64)
-    for k, item in enumerate(items):
-        rows, present, _ = item["trajectory"].shape
-        trajectory[k, :rows, :present] = item["trajectory"]
-        mask[k, :rows] = True
-        entities[k, :present] = True
-        actions[k, : len(item["actions"])] = item["actions"]
-    stacked = {name: torch.stack([item[name] for item in items]) for name in ("kind", "relation", "attitudes")}
-    return {"trajectory": trajectory, "mask": mask, "entities": entities, "actions": actions, **stacked}
+    numbers = [{name: value if name == "id" else value.numpy() for name, value in item.items()} for item in items]
+    return _tensors(pad(numbers))
+
+
+def _tensors(members):
+    return {name: value if name == "id" else torch.as_tensor(value) for name, value in members.items()}

@@ -52,6 +52,22 @@ pub enum RunError {
         /// Similar ids, in words.
         near: String,
     },
+    /// The file of predictions has no answers to some of the events.
+    #[error("{}: has no answer to {missing} of the {of} events of {events}: {which}{near}", file.display())]
+    NoAnswers {
+        /// The file.
+        file: PathBuf,
+        /// Number of events without an answer.
+        missing: usize,
+        /// Number of events.
+        of: usize,
+        /// The events, in words.
+        events: String,
+        /// Ids of the first of those without an answer.
+        which: String,
+        /// Ids of the file similar to the first of them, in words.
+        near: String,
+    },
     /// A folder holds no events.
     #[error("{}: is a folder without manifest.json or summary.json, and without event files; give one of them", .0.display())]
     NotADataset(PathBuf),
@@ -201,6 +217,7 @@ impl RunError {
             | Self::Altered(_)
             | Self::UnknownPreset { .. }
             | Self::UnknownId { .. }
+            | Self::NoAnswers { .. }
             | Self::NotADataset(_)
             | Self::IntentNetwork { .. }
             | Self::Unfinished(_)
@@ -229,17 +246,42 @@ impl RunError {
     /// An id that a file does not contain, with the most similar ones.
     #[must_use]
     pub(crate) fn unknown_id<'a>(file: &Path, id: &str, ids: impl Iterator<Item = &'a str>) -> Self {
-        const SHOWN: usize = 5;
-        let mut ids: Vec<&str> = ids.collect();
-        ids.sort_by_key(|known| (edit_distance(id, known), *known));
-        let count = ids.len();
-        ids.truncate(SHOWN);
-        let near = match count {
-            0 => String::new(),
-            1..=SHOWN => format!("; it has {}", ids.join(", ")),
-            _ => format!("; nearest of its {count} are {}", ids.join(", ")),
-        };
-        Self::UnknownId { file: file.to_owned(), id: id.into(), near }
+        Self::UnknownId { file: file.to_owned(), id: id.into(), near: near(id, ids.collect()) }
+    }
+
+    /// Predictions without answers to some of the events, of which there is at least one.
+    pub(crate) fn no_answers<'a>(
+        file: &Path,
+        missing: &[&str],
+        of: usize,
+        events: &str,
+        ids: impl Iterator<Item = &'a str>,
+    ) -> Self {
+        let others = if missing.len() > IDS_SHOWN { " …" } else { "" };
+        let first: Vec<&str> = missing.iter().copied().take(IDS_SHOWN).collect();
+        Self::NoAnswers {
+            file: file.to_owned(),
+            missing: missing.len(),
+            of,
+            events: events.into(),
+            which: format!("{}{others}", first.join(", ")),
+            near: near(first.first().copied().unwrap_or_default(), ids.collect()),
+        }
+    }
+}
+
+/// Greatest number of ids that a message names.
+const IDS_SHOWN: usize = 5;
+
+/// The ids most similar to one, as the end of a sentence.
+fn near(id: &str, mut ids: Vec<&str>) -> String {
+    ids.sort_by_key(|known| (edit_distance(id, known), *known));
+    let count = ids.len();
+    ids.truncate(IDS_SHOWN);
+    match count {
+        0 => String::new(),
+        1..=IDS_SHOWN => format!("; it has {}", ids.join(", ")),
+        _ => format!("; nearest of its {count} are {}", ids.join(", ")),
     }
 }
 

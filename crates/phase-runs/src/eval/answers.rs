@@ -142,8 +142,11 @@ impl<A> PredictionsFile<A> {
             }
         };
         let mut others = parse(&value).map_err(fail)?;
-        if let Some(event) = input.events.iter().find(|event| !others.contains_key(&event.id)) {
-            return Err(RunError::unknown_id(file, &event.id, others.keys().map(String::as_str)));
+        let ids = input.events.iter().map(|event| event.id.as_str());
+        let missing: Vec<&str> = ids.filter(|id| !others.contains_key(*id)).collect();
+        if !missing.is_empty() {
+            let known = others.keys().map(String::as_str);
+            return Err(RunError::no_answers(file, &missing, input.events.len(), &input.description, known));
         }
         let mut answers = BTreeMap::new();
         for event in &input.events {

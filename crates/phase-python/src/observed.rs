@@ -1,0 +1,217 @@
+//! Events as a viewer sees them.
+
+use crate::{arrays::reading, error::raise, event::Event, scene::Scene};
+use numpy::{PyArray1, PyArray2, PyArray3, PyUntypedArrayMethods};
+use phase_event::{COLUMNS, ObservedEvent, check_id, parse_observed};
+use phase_files::{FileError, Problem, json};
+use phase_model::{
+    AGENT_COUNT, Body, Flip, Layout, LayoutError, MAX_ENTITIES, MAX_OBJECTS, Size, Vec2, arena,
+};
+use pyo3::{PyTypeInfo, prelude::*};
+use std::{path::PathBuf, sync::Arc};
+
+/// Walls, sizes and motion of an event, without labels. Users see it as `phase_events.ObservedEvent`.
+#[pyclass(frozen, module = "phase_events._native")]
+pub(crate) struct Observed {
+    pub(crate) id: String,
+    pub(crate) event: Arc<ObservedEvent>,
+}
+
+/// Columns of a row: x, y (u), vx, vy (u/s), angle (rad).
+pub(crate) const ROW_COLUMNS: usize = COLUMNS.len();
+
+/// Base and reflection of a layout.
+type LayoutNumbers = (u64, Option<u64>);
+
+#[pymethods]
+impl Observed {
+    /// An event of a layout, of agents and objects of these size levels, and of these rows, (steps + 1,
+    /// entities, 5), columns x, y (u), vx, vy (u/s), angle (rad). `PhaseError` names the part and the rule.
+    #[new]
+    fn new(
+        id: String,
+        layout: LayoutNumbers,
+        agent_sizes: [u8; AGENT_COUNT],
+        object_sizes: Vec<u8>,
+        rows: &Bound<'_, PyArray3<f32>>,
+    ) -> PyResult<Self> {
+        check_id(&id).map_err(|rule| raise(format!("id {rule}, not {id:?}")))?;
+        let (base, flip) = layout;
+        let flip =
+            flip.map(|flip| usize::try_from(flip).ok().and_then(|flip| Flip::ALL.get(flip)).ok_or(flip));
+        let flip = flip.transpose().map_err(|flip| raise(LayoutError::Flip(flip)))?.copied();
+        let base = u8::try_from(base).map_err(|_| raise(LayoutError::Base(base)))?;
+        let layout = Layout::new(base, flip).map_err(raise)?;
+        let size = |level: u8| {
+            Size::from_level(level).ok_or_else(|| raise(format!("a size level is 0 to 3, not {level}")))
+        };
+        let [first, second] = agent_sizes;
+        let objects = object_sizes.into_iter().map(size).collect::<PyResult<Vec<_>>>()?;
+        if objects.len() > MAX_OBJECTS {
+            return Err(raise(format!("there are at most {MAX_OBJECTS} objects, not {}", objects.len())));
+        }
+        let rows = read_rows(rows, AGENT_COUNT + objects.len())?;
+        let event = ObservedEvent::new(layout, [size(first)?, size(second)?], objects, rows);
+        Ok(Self { id, event: Arc::new(event.map_err(raise)?) })
+    }
+
+    /// The part of an event that a viewer sees.
+    #[staticmethod]
+    fn of_event(event: PyRef<'_, Event>) -> PyResult<Self> {
+        let recording = &event.recording;
+        Ok(Self { id: recording.id.clone(), event: Arc::new(recording.observed().map_err(raise)?) })
+    }
+
+    /// Rows that were seen in a scene, of which only layout and sizes are looked at.
+    #[staticmethod]
+    fn in_scene(scene: PyRef<'_, Scene>, rows: &Bound<'_, PyArray3<f32>>) -> PyResult<Self> {
+        let rows = read_rows(rows, scene.scene.physics().entities().count())?;
+        let event = ObservedEvent::in_scene(&scene.scene, rows).map_err(raise)?;
+        Ok(Self { id: "scene".into(), event: Arc::new(event) })
+    }
+
+    /// The events of a file of the form phase-events/1, whose labels may be absent. `PhaseError` names the
+    /// file, the event, the field and the rule.
+    #[staticmethod]
+    fn read(py: Python<'_>, path: PathBuf) -> PyResult<Vec<Self>> {
+        let read = py.detach(|| {
+            let bytes = json::bytes(&path)?;
+            parse_observed(&bytes).map_err(|error| FileError { file: path, problem: Problem::content(error) })
+        });
+        let read = read.map_err(raise)?;
+        Ok(read.into_iter().map(|(id, event)| Self { id, event: Arc::new(event) }).collect())
+    }
+
+    #[allow(clippy::type_complexity)]
+    fn __reduce__<'py>(
+        &self,
+        py: Python<'py>,
+    ) -> PyResult<(
+        Bound<'py, PyAny>,
+        (String, LayoutNumbers, [u8; AGENT_COUNT], Vec<u8>, Bound<'py, PyArray3<f32>>),
+    )> {
+        let agents = self.event.agent_sizes().map(Size::level);
+        let objects = self.event.object_sizes().iter().map(|size| size.level()).collect();
+        let arguments = (self.id.clone(), self.layout(), agents, objects, self.trajectory(py)?);
+        Ok((Self::type_object(py).into_any(), arguments))
+    }
+
+    fn __copy__(slf: Bound<'_, Self>) -> Bound<'_, Self> {
+        slf
+    }
+
+    fn __deepcopy__<'py>(slf: Bound<'py, Self>, _memo: &Bound<'py, PyAny>) -> Bound<'py, Self> {
+        slf
+    }
+
+    /// The name of the event.
+    #[getter]
+    fn id(&self) -> &str {
+        &self.id
+    }
+
+    /// The number of steps of 0.25 s.
+    #[getter]
+    fn steps(&self) -> usize {
+        self.event.steps()
+    }
+
+    /// Base (0 to 21) and reflection (0 to 3, or `None`) of the layout.
+    #[getter]
+    fn layout(&self) -> LayoutNumbers {
+        let layout = self.event.layout();
+        (layout.base().into(), layout.flip().map(|flip| u8::from(flip).into()))
+    }
+
+    /// The size level of every entity, agents first.
+    #[getter]
+    fn size_levels<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<i64>> {
+        let levels = self.sizes().map(|size| size.level().into());
+        PyArray1::from_iter(py, levels.collect::<Vec<_>>())
+    }
+
+    /// The radius of every entity (u), agents first.
+    #[getter]
+    fn radii<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f32>> {
+        PyArray1::from_iter(py, self.sizes().map(Size::radius).collect::<Vec<_>>())
+    }
+
+    /// The inner walls, (walls, 2, 2): both ends of each, x and y (u).
+    #[getter]
+    fn walls<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray3<f32>>> {
+        let walls = self.event.layout().walls();
+        let ends = |point: Vec2| point.to_array().to_vec();
+        let rows: Vec<_> = walls.iter().map(|wall| vec![ends(wall.a), ends(wall.b)]).collect();
+        if rows.is_empty() {
+            return Ok(PyArray3::zeros(py, [0, 2, 2], false));
+        }
+        PyArray3::from_vec3(py, &rows).map_err(raise)
+    }
+
+    /// The rows, (steps + 1, entities, 5), columns x, y (u), vx, vy (u/s), angle (rad).
+    fn trajectory<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray3<f32>>> {
+        let entities = self.event.entities().count();
+        let row = |bodies: &[Body; MAX_ENTITIES]| {
+            let bodies = bodies[..entities].iter();
+            bodies
+                .map(|body| {
+                    let Body { position, velocity, angle, .. } = *body;
+                    vec![position.x, position.y, velocity.x, velocity.y, angle]
+                })
+                .collect()
+        };
+        let rows: Vec<Vec<Vec<f32>>> = self.event.rows().iter().map(row).collect();
+        PyArray3::from_vec3(py, &rows).map_err(raise)
+    }
+
+    /// The first steps of the event; the whole event if it has no more.
+    fn prefix(&self, steps: usize) -> Self {
+        Self { id: self.id.clone(), event: Arc::new(self.event.prefix(steps)) }
+    }
+}
+
+impl Observed {
+    /// The sizes of all entities, agents first.
+    fn sizes(&self) -> impl Iterator<Item = Size> {
+        self.event.agent_sizes().into_iter().chain(self.event.object_sizes().iter().copied())
+    }
+}
+
+/// The centres of the four landmarks, (4, 2): x and y (u).
+pub(crate) fn landmarks(py: Python<'_>) -> PyResult<Bound<'_, PyArray2<f32>>> {
+    let centres = arena::LANDMARKS.map(|centre| centre.to_array().to_vec());
+    PyArray2::from_vec2(py, &centres).map_err(raise)
+}
+
+/// Rows, (any, entities, 5).
+///
+/// # Errors
+/// `PhaseError` for another shape, and for places outside the arena.
+fn read_rows(rows: &Bound<'_, PyArray3<f32>>, entities: usize) -> PyResult<Vec<[Body; MAX_ENTITIES]>> {
+    let count = rows.shape().first().copied().unwrap_or_default();
+    let rows = reading("trajectory", rows, &[count, entities, ROW_COLUMNS])?;
+    let mut read = Vec::with_capacity(count);
+    for (t, row) in rows.as_array().outer_iter().enumerate() {
+        let numbers: Vec<_> =
+            row.outer_iter().map(|body| core::array::from_fn(|column| body[column])).collect();
+        let bodies = bodies(&numbers);
+        let outside = |body: &Body| body.is_finite() && !arena::contains(body.position);
+        if let Some(k) = bodies[..entities].iter().position(outside) {
+            let Vec2 { x, y } = bodies[k].position;
+            return Err(raise(format!(
+                "trajectory[{t}, {k}] must lie inside the arena (x 6 to 26, y 2 to 22), not at ({x}, {y})"
+            )));
+        }
+        read.push(bodies);
+    }
+    Ok(read)
+}
+
+/// The bodies of a row.
+pub(crate) fn bodies(row: &[[f32; ROW_COLUMNS]]) -> [Body; MAX_ENTITIES] {
+    let mut bodies = [Body::default(); MAX_ENTITIES];
+    for (body, &[x, y, vx, vy, angle]) in bodies.iter_mut().zip(row) {
+        *body = Body { position: Vec2::new(x, y), velocity: Vec2::new(vx, vy), angle, angular_velocity: 0.0 };
+    }
+    bodies
+}
