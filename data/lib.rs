@@ -57,6 +57,14 @@ pub const REPORT_TRAINING: &str = include_str!("report-model.training.json");
 /// docs/reference/formats/studies.md). The 23 types of interaction are those of the paper, in its order.
 pub const FORMS: &str = include_str!("forms.json");
 
+/// The figures of the benchmark that documents show (JSON, format phase-benchmark/1,
+/// docs/reference/formats/evaluation.md).
+pub const RESULTS: &str = include_str!("results.json");
+/// Scores of submitted methods (JSON, format phase-leaderboard/1).
+pub const LEADERBOARD_SCORES: &str = include_str!("leaderboard/scores.json");
+/// Authors of submitted methods (JSON).
+pub const LEADERBOARD_METHODS: &str = include_str!("leaderboard/methods.json");
+
 /// Twelve events, two of each kind (JSON, format phase-preset/3, as all presets).
 pub const DEMO: &str = include_str!("presets/demo.json");
 /// The paper's 500 events, second edition (docs/reference/dataset.md).

@@ -21,6 +21,7 @@ use crate::{
     splits::{self, Splits},
     stats::{self, Stats},
     study::{self, options::Study},
+    submit::{self, Submit},
     train::{self, options::Train},
     verify::{self, options::Verify},
 };
@@ -58,6 +59,8 @@ pub enum Command {
     Train(Train),
     /// Evaluate all methods at both tasks and compare them with published results, in one report
     Benchmark(Benchmark),
+    /// Check and score the answers of a method, and write the files of a pull request for the leaderboard
+    Submit(Submit),
     /// Write the playground, a page on which minds play in a browser, as static files
     Playground(Playground),
     /// Prepare a rating study of videos, export its answers, or analyse them
@@ -90,6 +93,7 @@ impl Interface for Command {
             Self::Eval(arguments) => eval::run(arguments, context),
             Self::Train(arguments) => train::run(arguments, context),
             Self::Benchmark(arguments) => benchmark::run(arguments, context),
+            Self::Submit(arguments) => submit::run(arguments, context),
             Self::Playground(arguments) => playground::run(arguments, context),
             Self::Study(arguments) => study::run(arguments, context),
             Self::Serve(arguments) => serve::run(arguments, context),

@@ -11,6 +11,7 @@
 //! - `eval` measures how well a method perceives events,
 //! - `train` trains neural networks (feature `networks`),
 //! - `benchmark` evaluates all methods and compares them with published results,
+//! - `submit` checks and scores a method for the leaderboard,
 //! - `playground` writes the playground as static files,
 //! - `study` prepares rating studies, and exports and analyses their answers (feature `studies`),
 //! - `serve` serves the playground, the two-player game and the admin page (feature `serve`),
@@ -70,6 +71,7 @@ pub mod simulate;
 pub mod splits;
 pub mod stats;
 pub mod study;
+pub mod submit;
 pub mod train;
 pub mod verify;
 

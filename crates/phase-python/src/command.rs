@@ -2,9 +2,9 @@
 
 use crate::error::{raise, raise_with_code};
 use phase_cli::{PHASE, cli::Command, console::without_results, interrupt::leave_to_host, program};
-use phase_runs::interrupt;
+use phase_runs::{interrupt, leaderboard::Submission, listener::Silent};
 use pyo3::prelude::*;
-use std::{ffi::OsString, thread, time::Duration};
+use std::{ffi::OsString, path::PathBuf, thread, time::Duration};
 
 /// Time between two questions to Python whether it was interrupted.
 const POLL: Duration = Duration::from_millis(100);
@@ -38,4 +38,22 @@ pub(crate) fn run(py: Python<'_>, arguments: Vec<OsString>, silent: bool) -> PyR
         Ok(result) => result.map_err(|failure| raise_with_code(failure.sentence, failure.exit_code)),
         Err(_) => Err(raise("the command failed; this is a defect of PHASE")),
     }
+}
+
+/// Checks and scores a file of predictions, and writes the files of a pull request for the leaderboard; its
+/// scores and files as JSON. `PhaseError` if anything is invalid or cannot be written.
+#[pyfunction]
+pub(crate) fn submit(
+    py: Python<'_>,
+    predictions: PathBuf,
+    events: PathBuf,
+    method: String,
+    by: String,
+    source: String,
+    out: PathBuf,
+) -> PyResult<String> {
+    let submission = Submission { predictions, events, method: Some(method), by, source, out };
+    let pool = rayon::ThreadPoolBuilder::new().build().map_err(raise)?;
+    let submitted = py.detach(|| pool.install(|| submission.submit(&Silent))).map_err(raise)?;
+    serde_json::to_string(&submitted).map_err(raise)
 }

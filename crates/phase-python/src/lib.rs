@@ -60,6 +60,7 @@ fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(perceive::compare, module)?)?;
     module.add_function(wrap_pyfunction!(perceive::methods, module)?)?;
     module.add_function(wrap_pyfunction!(command::run, module)?)?;
+    module.add_function(wrap_pyfunction!(command::submit, module)?)?;
     module.add_function(wrap_pyfunction!(event::write_text, module)?)?;
     Ok(())
 }

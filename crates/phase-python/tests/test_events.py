@@ -189,10 +189,10 @@ def test_errors_name_arguments(event, tmp_path):
     """The words of Python: no options of the command line, no files that the caller has not named."""
     right = phase.infer(event, method="chance")
     refusals = {
-        "method is simple or .* not 'oracle'": lambda: phase.infer(event, method="oracle"),
-        "method is .* not 'cue'": lambda: phase.forecast(event, method="cue"),
-        "predictions is simple or .* not 'oracle'": lambda: phase.evaluate("oracle", [event]),
-        "split is train or validation or test, not 'all'": lambda: phase.evaluate("chance", [event], split="all"),
+        "method must be one of simple, .* not 'oracle'": lambda: phase.infer(event, method="oracle"),
+        "method must be one of .* not 'cue'": lambda: phase.forecast(event, method="cue"),
+        "predictions must be one of simple, .* not 'oracle'": lambda: phase.evaluate("oracle", [event]),
+        "split must be one of train, validation, test, not 'all'": lambda: phase.evaluate("chance", [event], split="all"),
         "split needs a dataset": lambda: phase.evaluate("chance", [event], split="test"),
         "predictions: has no answer to 1 of the 1 events of events.json: event; it has other": lambda: phase.evaluate(
             {"other": right}, [event]

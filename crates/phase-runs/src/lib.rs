@@ -6,7 +6,7 @@
 //! - [`verify`] checks that a dataset is whole and that its files are what follows from its preset and seed;
 //!   [`export`] packs it for training programs; [`figures`] compares its figures with the paper's.
 //! - [`eval::Evaluation`] evaluates a method; [`benchmark::BenchmarkRun`]
-//!   evaluates all of them.
+//!   evaluates all of them; [`leaderboard::Submission`] scores a method from outside for the leaderboard.
 //! - `train::Training` trains a network (feature `networks`).
 //! - [`source::EventInput`] opens files and folders with events, [`event_writer`] and [`picture`] make the
 //!   files of one event.
@@ -71,6 +71,7 @@ pub mod figures;
 mod gallery_writer;
 pub mod gen_dataset;
 pub mod interrupt;
+pub mod leaderboard;
 pub mod listener;
 pub mod parallel;
 pub mod picture;

@@ -14,7 +14,7 @@ agent at angle 0 faces up. Arrays have agents first, then objects, both by numbe
 """
 
 from ._native import ACTIONS, OBSERVATION_SIZE, PhaseError, Scene
-from .command import evaluate, generate, run
+from .command import evaluate, generate, run, submit
 from .events import RELATIONS, Event, Events, ObservedEvent, load_events, load_observed, simulate
 from .observation import split_observation
 from .perception import GOALS, Observer, answer, forecast, goal_index, infer, methods
@@ -52,6 +52,7 @@ __all__ = [
     "scene",
     "simulate",
     "split_observation",
+    "submit",
 ]
 
 _ENVIRONMENTS = {"PhaseEnv": "env", "PhaseParallelEnv": "env", "PhaseVectorEnv": "vector"}

@@ -188,6 +188,40 @@ def evaluate(
         return results
 
 
+def submit(predictions, events, *, name, by, source, out="out/submission"):
+    """Checks and scores answers for the leaderboard, and writes the files of a pull request (docs/how-to/method.md).
+
+    >>> answers = {event.id: infer(event) for event in load_events("out/phase-500-seed1")}      # doctest: +SKIP
+    >>> done = submit(answers, "out/phase-500-seed1", name="mine", by="N. N.", source="https://example.org")   # doctest: +SKIP
+    >>> done["files"]                                                                           # doctest: +SKIP
+
+    Args:
+        predictions: a dict as of :func:`evaluate`, whose answers may be to both tasks at once; or the path of a file of predictions.
+        events: the folder of PHASE-500 (its test events are scored) or of phase-pairs, or the file of the recordings.
+        name: the name of the method: letters, digits, ``-``, ``_`` and ``.``.
+        by: the authors.
+        source: the address of the code, or of a description.
+        out: a checkout of PHASE, or another folder, in which the files are made. Those of an earlier submission in it are kept.
+
+    Returns:
+        a dict: ``scores``, one for each task, as in ``phase-leaderboard/1``; ``files``, the paths to be committed; ``same_events``, whether
+        the events are, byte for byte, those that the other scores of the leaderboard are of.
+
+    Raises:
+        PhaseError: if the events are none of the leaderboard's (it says which these are), an event has no answer or an invalid one, or a
+            name is invalid. Nothing is written then.
+    """
+    events, out = path_of(events), path_of(out)
+    name, by, source = text("name", name), text("by", by), text("source", source)
+    with tempfile.TemporaryDirectory() as folder, _pythons_words((), folder):
+        file = Path(folder) / "predictions.json"
+        if isinstance(predictions, (str, bytes, os.PathLike)):
+            file = path_of(predictions)
+        else:
+            _native.write_text(os.fspath(file), _document(predictions, name, "predictions"))
+        return json.loads(_native.submit(os.fspath(file), events, name, by, source, out))
+
+
 def _others(compare):
     """What is compared, by name."""
     if isinstance(compare, Mapping):
