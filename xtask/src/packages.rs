@@ -13,10 +13,7 @@ pub const PACKAGES: [(&str, &[(&str, &str)]); 4] = [
             ("check-behaviour", "Measure how reliably agents show the intended behaviour"),
             ("check-minds", "Compare minds with the agents of recordings or events whose labels are known"),
             ("check-physics", "Compare an engine of the physics with recorded motion"),
-            (
-                "fit-forecast",
-                "Fit how SIMPLE combines simulated futures to events whose continuation is known",
-            ),
+            ("fit-forecast", "Fit how SIMPLE combines simulated futures"),
             ("fit-inference", "Fit how SIMPLE weighs its evidence to events whose labels are known"),
             ("fit-reports", "Fit how people report what they saw to raters of recordings"),
         ],

@@ -15,7 +15,7 @@ use crate::{
     new_scene::{self, options::NewScene},
     playground::{self, Playground},
     program::{CommandLine, Interface},
-    render::{self, options::Render},
+    render::{self, Render},
     serve::{self, options::Serve},
     simulate::{self, options::Simulate},
     splits::{self, Splits},

@@ -1,10 +1,7 @@
 //! Physics engine, length of events and search effort of agents: options shared by several commands.
 
-use clap::{
-    Args,
-    builder::{PossibleValuesParser, TypedValueParser},
-    value_parser,
-};
+use crate::named::named;
+use clap::{Args, value_parser};
 use phase_minds::{Foresight, MindKind, PARTICLES, SIMULATIONS};
 use phase_model::setting::EVENT_STEPS;
 use phase_runs::{
@@ -13,13 +10,17 @@ use phase_runs::{
 };
 use phase_sim::{Engine, SimulationSettings};
 
-/// Choice of the minds that agents have.
+/// Choice of the minds that agents have, or that SIMPLE imagines.
 #[derive(Args, Clone, Copy, Debug, Default)]
 pub struct MindOptions {
-    /// Minds of the agents: `phase`, or `published`, those of the published simulator [default: phase]
-    #[arg(long, value_name = "MINDS", hide_possible_values = true, value_parser = mind_kinds())]
+    /// Minds of the agents, or the only ones that SIMPLE imagines: `phase`, or `published`, those of the
+    /// published simulator [default: phase; `simple` averages over both, `simple-published` has published
+    /// minds]
+    #[arg(long, value_name = "MINDS", hide_possible_values = true,
+        value_parser = named(MindKind::ALL, MindKind::name))]
     pub minds: Option<MindKind>,
-    /// All turns go one way, as in the published recordings: left, and right in a reflected layout
+    /// All turns of these minds go one way, as in the published recordings: left, and right in a reflected
+    /// layout
     #[arg(long)]
     pub one_way_turns: bool,
     /// Agents of the greatest strength coast when they mean to stop, as in the published recordings
@@ -42,7 +43,8 @@ impl From<MindOptions> for MindChoice {
 pub struct SimulationOptions {
     /// Physics engine of the events: `world` (rapier2d) or `forward` (the kernel that the agents' search
     /// uses, closest to the published simulator) [default: world]
-    #[arg(long, value_name = "ENGINE", hide_possible_values = true, value_parser = engines())]
+    #[arg(long, value_name = "ENGINE", hide_possible_values = true,
+        value_parser = named(Engine::ALL, Engine::name))]
     pub engine: Option<Engine>,
     /// Minds of the agents.
     #[command(flatten)]
@@ -50,7 +52,8 @@ pub struct SimulationOptions {
     /// Dynamics in the agents' search: `coarse`, or `exact`, which takes several times as long, or `points`,
     /// in which bodies pass through each other; published minds have dynamics of their own, or `points`
     /// [default: coarse]
-    #[arg(long, value_name = "HOW", hide_possible_values = true, value_parser = foresights())]
+    #[arg(long, value_name = "HOW", hide_possible_values = true,
+        value_parser = named(Foresight::ALL, Foresight::name))]
     pub foresight: Option<Foresight>,
     /// Belief particles of each agent, 1 to 100000 [default: 50]
     #[arg(long, value_name = "K", value_parser = value_parser!(u32).range(PARTICLES.bounds()))]
@@ -84,26 +87,4 @@ impl SimulationOptions {
     pub fn settings(&self) -> Result<SimulationSettings, RunError> {
         self.effort().settings()
     }
-}
-
-/// Reads an engine by its name.
-#[must_use]
-pub fn engines() -> impl TypedValueParser<Value = Engine> {
-    let names = PossibleValuesParser::new(Engine::ALL.map(Engine::name));
-    names.try_map(|name| Engine::named(&name).ok_or("no such engine"))
-}
-
-/// Reads a kind of minds by its name.
-#[must_use]
-pub fn mind_kinds() -> impl TypedValueParser<Value = MindKind> {
-    let names = PossibleValuesParser::new(MindKind::ALL.map(MindKind::name));
-    names.try_map(|name| MindKind::ALL.into_iter().find(|kind| kind.name() == name).ok_or("no such minds"))
-}
-
-/// Reads the fidelity of the search's dynamics by its name.
-fn foresights() -> impl TypedValueParser<Value = Foresight> {
-    let names = PossibleValuesParser::new(Foresight::ALL.map(Foresight::name));
-    names.try_map(|name| {
-        Foresight::ALL.into_iter().find(|foresight| foresight.name() == name).ok_or("no such foresight")
-    })
 }

@@ -11,23 +11,21 @@ use phase_dataset::event_cache::EventCache;
 use phase_event::{Event, Recording};
 use phase_files::{
     atomic,
-    checksum::{hexadecimal, sha256},
+    checksum::{FileEntry, hexadecimal, sha256},
     folder::Folder,
-    run,
+    measured, run,
 };
 use phase_model::{Relation, Scene};
 use phase_render::Palette;
 use phase_sim::SimulationSettings;
 use serde_json::{Value, json};
-use std::{
-    path::{Path, PathBuf},
-    time::Instant,
-};
+use std::{path::PathBuf, time::Instant};
 
 /// Writer of events, with everything that the events of a run have in common.
 pub struct EventWriter {
     settings: SimulationSettings,
     settings_value: Value,
+    folder: PathBuf,
     cache: EventCache,
     progress: Box<dyn Progress>,
 }
@@ -43,10 +41,19 @@ pub struct EventJob {
     pub relation: Option<Relation>,
     /// Its minimum and maximum length, if they are not the run's (steps).
     pub lengths: Option<(usize, usize)>,
-    /// Path of its JSON.
-    pub json: PathBuf,
-    /// Path of its video, if there is to be one.
-    pub video: Option<PathBuf>,
+    /// Path of its JSON in the folder of the run, with `/`.
+    pub json: String,
+    /// Path of its video there, if there is to be one.
+    pub video: Option<String>,
+}
+
+/// The files of one event, measured while they were written.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct EventFiles {
+    /// Its JSON.
+    pub json: FileEntry,
+    /// Its video, if there is one.
+    pub video: Option<FileEntry>,
 }
 
 impl EventWriter {
@@ -64,7 +71,7 @@ impl EventWriter {
         let settings_value = settings_value(&settings)?;
         let cache = EventCache::new(&folder.cache(), fingerprint(&settings_value));
         let progress = listener.progress(activity, events, settings.max_steps);
-        Ok(Self { settings, settings_value, cache, progress })
+        Ok(Self { settings, settings_value, folder: folder.path().to_owned(), cache, progress })
     }
 
     /// Produces one event and its files; `None` if it was interrupted. The scene is requested only if the
@@ -76,7 +83,7 @@ impl EventWriter {
         &self,
         job: &EventJob,
         scene: impl FnOnce() -> Result<Scene, RunError>,
-    ) -> Result<Option<Event>, RunError> {
+    ) -> Result<Option<(Event, EventFiles)>, RunError> {
         let id = &job.id;
         let begun = Instant::now();
         let mut steps = 0;
@@ -95,30 +102,34 @@ impl EventWriter {
                 // A video of an earlier build must not outlive the event it showed, even if the run is
                 // interrupted.
                 if let Some(video) = &job.video {
-                    atomic::remove(video)?;
+                    atomic::remove(&self.folder.join(video))?;
                 }
                 self.cache.store(id, &event)?;
                 event
             }
         };
-        self.write(job, &event, fresh)?;
+        let files = self.write(job, &event, fresh)?;
         let kind = event.scene.kind.name();
         let length = event.steps.len();
         let how = if fresh { format!("{:.1} s", begun.elapsed().as_secs_f64()) } else { "kept".into() };
         self.finished(steps, &format!("{id} {kind}: {length} steps ({how})"));
-        Ok(Some(event))
+        Ok(Some((event, files)))
     }
 
     /// Writes the files of an event; its video if the event is new or the video is missing.
     ///
     /// # Errors
     /// If drawing or writing fails.
-    pub fn write(&self, job: &EventJob, event: &Event, fresh: bool) -> Result<(), RunError> {
-        self.write_json(job, event)?;
-        match &job.video {
-            Some(path) if fresh || !path.exists() => write_video(path, &job.id, event),
-            _ => Ok(()),
-        }
+    pub fn write(&self, job: &EventJob, event: &Event, fresh: bool) -> Result<EventFiles, RunError> {
+        let json = measured::write(&self.folder, &job.json, self.json(job, event)?.as_bytes())?;
+        let video = match &job.video {
+            Some(path) if fresh || !self.folder.join(path).exists() => {
+                Some(measured::write(&self.folder, path, &video(&job.id, event)?)?)
+            }
+            Some(path) => Some(FileEntry::of(&self.folder, path).map_err(RunError::ReadBack)?),
+            None => None,
+        };
+        Ok(EventFiles { json, video })
     }
 
     /// An event is done; see [`Progress::event`].
@@ -126,7 +137,7 @@ impl EventWriter {
         self.progress.event(counted, line);
     }
 
-    fn write_json(&self, job: &EventJob, event: &Event) -> Result<(), RunError> {
+    fn json(&self, job: &EventJob, event: &Event) -> Result<String, RunError> {
         let generator = GENERATOR.into();
         let mut settings = self.settings_value.clone();
         if let Some((min, max)) = job.lengths {
@@ -136,9 +147,7 @@ impl EventWriter {
         if let Some(relation) = job.relation {
             recording.relation = relation;
         }
-        let text = phase_event::to_json(&[recording])?;
-        let there = phase_files::regular::bytes(&job.json).is_ok_and(|bytes| bytes == text.as_bytes());
-        if there { Ok(()) } else { Ok(atomic::write(&job.json, text.as_bytes())?) }
+        Ok(phase_event::to_json(&[recording])?)
     }
 }
 
@@ -148,14 +157,6 @@ impl EventWriter {
 /// [`RunError::Serialise`].
 pub fn settings_value(settings: &SimulationSettings) -> Result<Value, RunError> {
     serde_json::to_value(settings).map_err(|source| RunError::Serialise { what: "settings", source })
-}
-
-/// Writes the video of a simulated event, a frame for each substep.
-///
-/// # Errors
-/// As [`picture::write_video`].
-pub fn write_video(path: &Path, id: &str, event: &Event) -> Result<(), RunError> {
-    Ok(atomic::write(path, &video(id, event)?)?)
 }
 
 /// Draws the video of a simulated event in memory, a frame for each substep.

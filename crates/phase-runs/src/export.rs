@@ -3,7 +3,7 @@
 //! A sample is an event: `<id>.mp4`, `<id>.json` with its labels, the entry of the manifest, and
 //! `<id>.phase-events`, its file of the format `phase-events/1`.
 
-use crate::{error::RunError, interrupt, listener::Listener, words};
+use crate::{error::RunError, interrupt, listener::Listener, resume::is_finished, words};
 use phase_dataset::{
     manifest::{EventEntry, MANIFEST_FILE, Manifest},
     splits::Split,
@@ -11,7 +11,7 @@ use phase_dataset::{
 use phase_files::{
     WriteError, atomic,
     checksum::FileEntry,
-    folder::{self, Contents, Folder},
+    folder::{self, Folder},
     measured::MeasuredFile,
     regular,
     run::Run,
@@ -64,19 +64,12 @@ pub fn export(
         ("manifest_sha256", digest.into()),
         ("events_per_file", events_per_file.into()),
     ]);
-    match folder::inspect(out, INDEX_FILE)? {
-        Contents::Finished => {
-            let index: Value = phase_files::json::read(&out.join(INDEX_FILE))?;
-            run.check(out, "a finished", &index["run"])?;
-            folder::remove_leftovers(out, &run)?;
-            let files = index["files"].as_array().cloned().unwrap_or_default();
-            return Ok(Exported { files, is_new: false });
-        }
-        Contents::Unfinished(other) => {
-            run.check(out, "an unfinished", &other)?;
-            listener.note(&format!("continuing in {}", out.display()));
-        }
-        Contents::Nothing => {}
+    if is_finished(out, INDEX_FILE, &run, listener)? {
+        let index: Value = phase_files::json::read(&out.join(INDEX_FILE))?;
+        run.check(out, "a finished", &index["run"])?;
+        folder::remove_leftovers(out, &run)?;
+        let files = index["files"].as_array().cloned().unwrap_or_default();
+        return Ok(Exported { files, is_new: false });
     }
     let folder = Folder::claim(out, &run)?;
     let progress = listener

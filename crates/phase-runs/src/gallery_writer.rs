@@ -26,9 +26,6 @@ impl<'a> GalleryWriter<'a> {
     }
 
     /// Adds an event; writes a page when it is full.
-    ///
-    /// # Errors
-    /// [`RunError::Write`].
     pub(crate) fn push(&mut self, entry: EventEntry, timeline: Timeline) -> Result<(), RunError> {
         self.events.push(entry);
         self.timelines.push(timeline);
@@ -36,9 +33,6 @@ impl<'a> GalleryWriter<'a> {
     }
 
     /// Writes what is left, and returns all files.
-    ///
-    /// # Errors
-    /// [`RunError::Write`].
     pub(crate) fn finish(mut self) -> Result<Vec<FileEntry>, RunError> {
         if !self.events.is_empty() {
             self.write_page()?;

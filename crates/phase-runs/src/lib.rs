@@ -2,7 +2,7 @@
 //!
 //! - [`gen_dataset::Generation`] generates a dataset, or one shard of it, [`gen_dataset::merge`] combines
 //!   shards.
-//! - [`simulate::Simulations`] simulates the scenes of a file.
+//! - [`simulate::Simulations`] simulates the scenes of a file, [`render::Rendering`] draws events.
 //! - [`verify`] checks that a dataset is whole and that its files are what follows from its preset and seed;
 //!   [`export`] packs it for training programs; [`figures`] compares its figures with the paper's.
 //! - [`eval::Evaluation`] evaluates a method; [`benchmark::BenchmarkRun`]
@@ -75,6 +75,8 @@ pub mod leaderboard;
 pub mod listener;
 pub mod parallel;
 pub mod picture;
+pub mod render;
+mod resume;
 pub mod shortcuts;
 pub mod simulate;
 pub mod source;

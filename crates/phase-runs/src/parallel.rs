@@ -1,11 +1,14 @@
 //! Many events at once, with results in order.
 
 use crate::{error::RunError, interrupt};
-use rayon::{
-    ThreadPool, ThreadPoolBuilder,
-    iter::{IntoParallelIterator, ParallelIterator},
+use rayon::ThreadPoolBuilder;
+use std::{
+    collections::BTreeMap,
+    sync::{
+        Mutex, PoisonError,
+        atomic::{AtomicBool, AtomicUsize, Ordering},
+    },
 };
-use std::sync::atomic::{AtomicBool, Ordering};
 
 /// A number of threads, or without one that of this machine's cores.
 #[must_use]
@@ -23,43 +26,32 @@ pub fn make_all<T: Send>(
     count: usize,
     make: impl Fn(usize) -> Result<Option<T>, RunError> + Sync,
 ) -> Result<Option<Vec<T>>, RunError> {
-    let pool = pool(threads.min(count.max(1)))?;
+    let next = AtomicUsize::new(0);
     let failed = AtomicBool::new(false);
-    let results: Vec<Result<Option<T>, RunError>> = pool.install(|| {
-        let one = |index| {
-            if failed.load(Ordering::Relaxed) || interrupt::requested() {
-                return Ok(None);
+    let results: Mutex<BTreeMap<usize, Result<Option<T>, RunError>>> = Mutex::default();
+    // One at a time and in order, so that no thread waits while there is something to begin.
+    let work = || {
+        while !failed.load(Ordering::Relaxed) && !interrupt::requested() {
+            let index = next.fetch_add(1, Ordering::Relaxed);
+            if index >= count {
+                return;
             }
             let result = make(index);
             if result.is_err() {
                 failed.store(true, Ordering::Relaxed);
             }
-            result
-        };
-        (0..count).into_par_iter().map(one).collect()
-    });
+            results.lock().unwrap_or_else(PoisonError::into_inner).insert(index, result);
+        }
+    };
+    let threads = threads.min(count.max(1));
+    let pool = ThreadPoolBuilder::new().num_threads(threads).build();
+    let pool = pool.map_err(|source| RunError::Threads { jobs: threads, source })?;
+    pool.broadcast(|_| work());
+    let results = results.into_inner().unwrap_or_else(PoisonError::into_inner);
     // Failures first: an interruption that follows from one must not hide it.
     let mut made = Vec::with_capacity(count);
-    let mut interrupted = false;
-    for result in results {
-        match result? {
-            Some(thing) => made.push(thing),
-            None => interrupted = true,
-        }
+    for result in results.into_values() {
+        made.extend(result?);
     }
-    Ok((!interrupted).then_some(made))
-}
-
-/// Runs `work` once on each of a number of threads.
-///
-/// # Errors
-/// [`RunError::Threads`].
-pub(crate) fn on_threads(threads: usize, work: impl Fn() + Sync) -> Result<(), RunError> {
-    pool(threads)?.broadcast(|_| work());
-    Ok(())
-}
-
-fn pool(threads: usize) -> Result<ThreadPool, RunError> {
-    let pool = ThreadPoolBuilder::new().num_threads(threads).build();
-    pool.map_err(|source| RunError::Threads { jobs: threads, source })
+    Ok((made.len() == count).then_some(made))
 }

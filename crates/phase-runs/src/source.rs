@@ -21,9 +21,6 @@ use std::{
 
 /// Parts of an event that determine its judgement and simulation: its layout, bodies, labels and rows, as in
 /// its file.
-///
-/// # Errors
-/// If it holds a number that is not finite.
 pub(crate) fn labels_and_rows(recording: &Recording) -> Result<Value, RunError> {
     const MEMBERS: [&str; 7] =
         ["layout", "agents", "objects", "event", "relation", "relation_human", "trajectory"];

@@ -1,7 +1,10 @@
 //! Many items at once: what comes back does not depend on the threads.
 
 use phase_runs::{error::RunError, parallel::make_all};
-use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{
+    Mutex,
+    atomic::{AtomicUsize, Ordering},
+};
 
 #[test]
 fn results_are_in_order_whatever_the_threads() {
@@ -11,6 +14,17 @@ fn results_are_in_order_whatever_the_threads() {
             assert_eq!(made, Some((0..count).map(|k| k * k).collect()), "{threads} threads");
         }
     }
+}
+
+#[test]
+fn items_are_begun_in_order() {
+    let begun = Mutex::new(Vec::new());
+    let note = |k| {
+        begun.lock().expect("no panic").push(k);
+        Ok(Some(()))
+    };
+    make_all(1, 20, note).expect("made");
+    assert_eq!(begun.into_inner().expect("no panic"), (0..20).collect::<Vec<_>>());
 }
 
 /// A failure is told even where others were interrupted by it; of several, the first in order.
@@ -23,7 +37,7 @@ fn the_first_failure_in_order_is_told() {
             _ => Ok(Some(k)),
         };
         let error = make_all(threads, 50, failing).expect_err("two fail").to_string();
-        assert!(error == "item 3" || (threads > 1 && error == "item 40"), "{threads} threads: {error}");
+        assert_eq!(error, "item 3", "{threads} threads");
     }
 }
 

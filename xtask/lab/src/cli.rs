@@ -30,7 +30,7 @@ pub enum Command {
     CheckMinds(CheckMinds),
     /// Fit how SIMPLE weighs its evidence to events whose labels are known
     FitInference(FitInference),
-    /// Fit how SIMPLE combines simulated futures to events whose continuation is known
+    /// Fit how SIMPLE combines simulated futures
     FitForecast(FitEvents),
     /// Fit how people report what they saw to raters of recordings
     FitReports(FitReports),

@@ -33,9 +33,6 @@ pub(crate) struct EvaluationsFile {
 impl EvaluationsFile {
     /// Opens the file beside another, or begins it; returns the evaluations in it, too. A line that is no
     /// evaluation, such as the last one of a run that was killed, is skipped.
-    ///
-    /// # Errors
-    /// If it cannot be read or written.
     pub(crate) fn beside<T: DeserializeOwned>(out: &Path) -> Result<(Self, Vec<Line<T>>), RunError> {
         let path = out.with_extension("evaluations.jsonl");
         let text = match read_to_string(&path) {
@@ -60,9 +57,6 @@ impl EvaluationsFile {
     }
 
     /// Adds an evaluation.
-    ///
-    /// # Errors
-    /// If it cannot be written.
     pub(crate) fn add<T: Serialize>(&self, line: &Line<T>) -> Result<(), RunError> {
         let text = serde_json::to_string(line);
         let text = text.map_err(|source| RunError::Serialise { what: "an evaluation", source })? + "\n";

@@ -5,11 +5,10 @@ use crate::{
     check_minds,
     error::LabError,
     evaluations_file::{EvaluationsFile, Line},
-    json_file,
 };
 use clap::{Args, value_parser};
 use core::ops::ControlFlow;
-use phase_cli::{context::Context, parallel::Jobs};
+use phase_cli::{context::Context, error::CliError, json_file, parallel::Jobs};
 use phase_event::{ProgressCallback, Recording};
 use phase_files::checksum::{hexadecimal, sha256};
 use phase_runs::{error::RunError, event_writer::program, interrupt::requested, parallel::make_all, words};
@@ -47,22 +46,20 @@ pub struct FitEvents {
 
 impl FitEvents {
     /// Checks that `--out` can be written and is no input.
-    ///
-    /// # Errors
-    /// If not.
     pub(crate) fn check_out<'a>(
         &'a self,
         others: impl IntoIterator<Item = &'a PathBuf>,
-    ) -> Result<(), RunError> {
+    ) -> Result<(), CliError> {
         let Some(out) = &self.out else { return Ok(()) };
-        let inputs = self.events.iter().chain(&self.held_out).chain(others);
-        json_file::check("--out", out, inputs.map(|file| file.as_path()))
+        json_file::check("--out", out, self.events.iter().chain(&self.held_out).chain(others))
+    }
+
+    /// Writes the fit, if a file was named.
+    pub(crate) fn write(&self, fit: &impl Serialize) -> Result<(), CliError> {
+        self.out.as_deref().map_or(Ok(()), |out| json_file::write(out, fit))
     }
 
     /// The events of a file, as many as were asked for.
-    ///
-    /// # Errors
-    /// If it has none, or they cannot be read.
     pub(crate) fn read(&self, file: &Path, context: &Context) -> Result<Vec<Recording>, RunError> {
         let mut recordings = check_minds::recordings(file, &[], None, context)?;
         recordings.truncate(self.limit.map_or(usize::MAX, |limit| limit as usize));
@@ -70,9 +67,6 @@ impl FitEvents {
     }
 
     /// The events of all these files, one after the other.
-    ///
-    /// # Errors
-    /// As [`FitEvents::read`].
     pub(crate) fn read_all(&self, files: &[PathBuf], context: &Context) -> Result<Vec<Recording>, RunError> {
         let files = files.iter().map(|file| self.read(file, context)).collect::<Result<Vec<_>, _>>()?;
         Ok(files.into_iter().flatten().collect())
@@ -92,9 +86,6 @@ pub(crate) struct KeptFigures<'a, T> {
 impl<'a, T: Clone + Send + Sync + Serialize + DeserializeOwned> KeptFigures<'a, T> {
     /// Nothing yet but what the file holds. `settings` names what determines the figures beside program, seed
     /// and event.
-    ///
-    /// # Errors
-    /// If that file cannot be used.
     pub(crate) fn new(
         settings: &str,
         arguments: &'a FitEvents,
@@ -109,9 +100,6 @@ impl<'a, T: Clone + Send + Sync + Serialize + DeserializeOwned> KeptFigures<'a, 
 
     /// The figures of these events, in their order. `compute` calls its tick about once a simulation, `ticks`
     /// times an event, and returns `None` if the tick breaks.
-    ///
-    /// # Errors
-    /// An event that cannot be simulated, a file that cannot be written, or an interruption.
     pub(crate) fn of(
         &self,
         activity: &str,

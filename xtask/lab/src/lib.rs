@@ -26,5 +26,4 @@ pub mod fit_forecast;
 pub mod fit_inference;
 pub mod fit_reports;
 mod folds;
-mod json_file;
 mod recognition;

@@ -1,6 +1,6 @@
 //! The options of `benchmark`.
 
-use crate::{effort::mind_kinds, eval::options::Parts, output::Output, parallel::Jobs};
+use crate::{eval::options::Parts, named::named, output::Output, parallel::Jobs};
 use clap::{Args, builder::PossibleValuesParser, value_parser};
 use phase_minds::MindKind;
 use phase_runs::benchmark::{BenchmarkRun, SEED, plan::METHODS};
@@ -34,7 +34,8 @@ pub struct Benchmark {
     /// Minds that SIMPLE imagines, and no others: `phase`, or `published`, those of the published simulator,
     /// with bodies that turn one way in recordings [default: `simple` averages over both, `simple-published`
     /// has published minds, the other variants ours]
-    #[arg(long, value_name = "MINDS", hide_possible_values = true, value_parser = mind_kinds())]
+    #[arg(long, value_name = "MINDS", hide_possible_values = true,
+        value_parser = named(MindKind::ALL, MindKind::name))]
     pub minds: Option<MindKind>,
     /// Also evaluate networks with these weights, as `train` writes them, and show how they improve with the
     /// amount of training data

@@ -2,22 +2,12 @@
 
 pub mod options;
 
-use crate::{
-    context::Context,
-    error::CliError,
-    interrupt,
-    output::{json_text, print_json, print_result},
-};
+use crate::{context::Context, error::CliError, interrupt, output::print_result};
 use options::{Common, Eval};
-use phase_files::atomic;
 use phase_runs::{
     eval::{Answers, Evaluated, Evaluation, REPORT_FILE, networks},
     words,
 };
-use std::path::Path;
-
-/// The name that means stdout where a file may be named.
-const STDOUT: &str = "-";
 
 /// Runs the command.
 ///
@@ -31,7 +21,7 @@ pub fn run(arguments: &Eval, context: &Context) -> Result<(), CliError> {
         require_networks(context)?;
     }
     let common = arguments.common();
-    check_output_path(common)?;
+    common.json.check([])?;
     interrupt::listen();
     let evaluation = Evaluation::from(arguments);
     match arguments {
@@ -58,32 +48,11 @@ fn announce<A>(done: Option<Evaluated<A>>, arguments: &Common) -> Result<(), Cli
             "this part is done; give the same command with --merge and the folders of all parts",
         );
     };
-    if arguments.json.as_deref() == Some(Path::new(STDOUT)) {
-        return print_json(&done.results);
-    }
-    if let Some(path) = &arguments.json {
-        let text = json_text(&done.results, "the results")?;
-        atomic::write(path, text.as_bytes()).map_err(CliError::Output)?;
-    }
-    print_result(done.document.first_table().trim_end())?;
     let folder = &done.folder;
-    print_result(if done.is_new {
+    let line = if done.is_new {
         format!("{}; report in {}", words::events(done.events.len()), folder.join(REPORT_FILE).display())
     } else {
         format!("{} holds this evaluation already", folder.display())
-    })
-}
-
-/// Checks before hours of work that the folder of the file to be written at the end exists.
-fn check_output_path(arguments: &Common) -> Result<(), CliError> {
-    let Some(path) = arguments.json.as_ref().filter(|path| *path != Path::new(STDOUT)) else { return Ok(()) };
-    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    let rule = if path.is_dir() {
-        "is a folder; --json needs a file"
-    } else if !folder.is_dir() {
-        "--json: there is no such folder to write into"
-    } else {
-        return Ok(());
     };
-    Err(CliError::Usage(format!("{}: {rule}", path.display())))
+    arguments.json.print(&done.results, format!("{}\n{line}", done.document.first_table().trim_end()))
 }

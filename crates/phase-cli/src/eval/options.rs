@@ -1,17 +1,8 @@
 //! The options of `eval`.
 
-use crate::{
-    effort::{MindOptions, mind_kinds},
-    parallel::Jobs,
-    shard_option::shard,
-};
-use clap::{
-    Args, Subcommand,
-    builder::{PossibleValuesParser, TypedValueParser},
-    value_parser,
-};
+use crate::{effort::MindOptions, json_file::JsonFile, named::named, parallel::Jobs, shard_option::shard};
+use clap::{Args, Subcommand, builder::PossibleValuesParser, value_parser};
 use phase_dataset::splits::Split;
-use phase_minds::MindKind;
 use phase_runs::eval::{Answers, Evaluation, methods};
 use std::path::PathBuf;
 
@@ -31,13 +22,6 @@ pub struct EvalGoals {
     #[arg(long, value_name = "METHOD", value_parser = PossibleValuesParser::new(methods::recognisers()),
           required_unless_present = "predictions")]
     pub method: Option<String>,
-    /// The weights of a neural network (safetensors, as `train` writes them) [default: those that come with
-    /// the program]
-    #[arg(long, value_name = "FILE", conflicts_with = "predictions")]
-    pub weights: Option<PathBuf>,
-    /// The minds that SIMPLE imagines.
-    #[command(flatten)]
-    pub minds: ImaginedMinds,
     /// Also ask the method after the given numbers of seconds of each event, up to 3600, such as
     /// 5,10,15,20; each takes as long again
     #[arg(
@@ -64,13 +48,6 @@ pub struct EvalTrajectories {
     #[arg(long, value_name = "METHOD", value_parser = PossibleValuesParser::new(methods::FORECASTERS),
           required_unless_present = "predictions")]
     pub method: Option<String>,
-    /// The weights of a neural network (safetensors, as `train` writes them) [default: those that come with
-    /// the program]
-    #[arg(long, value_name = "FILE", conflicts_with = "predictions")]
-    pub weights: Option<PathBuf>,
-    /// The minds that SIMPLE imagines.
-    #[command(flatten)]
-    pub minds: ImaginedMinds,
     /// Events and output.
     #[command(flatten)]
     pub common: Common,
@@ -79,6 +56,13 @@ pub struct EvalTrajectories {
 /// Options of both.
 #[derive(Args, Debug)]
 pub struct Common {
+    /// The weights of a neural network (safetensors, as `train` writes them) [default: those that come with
+    /// the program]
+    #[arg(long, value_name = "FILE", conflicts_with = "predictions")]
+    pub weights: Option<PathBuf>,
+    /// The minds that SIMPLE imagines.
+    #[command(flatten)]
+    pub minds: MindOptions,
     /// Score the answers in this file instead of asking a method (`events` as in results.json; see
     /// docs/reference/formats/evaluation.md)
     #[arg(long, value_name = "FILE", conflicts_with = "method")]
@@ -87,7 +71,8 @@ pub struct Common {
     #[arg(long, value_name = "FILE|DIR")]
     pub events: PathBuf,
     /// Only this part of a dataset: train, validation or test
-    #[arg(long, value_name = "SPLIT", hide_possible_values = true, value_parser = splits())]
+    #[arg(long, value_name = "SPLIT", hide_possible_values = true,
+        value_parser = named(Split::ALL, Split::name))]
     pub split: Option<Split>,
     /// Only the first N events, 1 to 1000000000
     #[arg(long, value_name = "N", value_parser = value_parser!(u64).range(1..=1_000_000_000))]
@@ -95,10 +80,9 @@ pub struct Common {
     /// Random seed of the method and the intervals
     #[arg(long, value_name = "S", default_value_t = 1)]
     pub seed: u64,
-    /// Print the results as one JSON object on stdout, and nothing else there; or, with a file, write them
-    /// there too
-    #[arg(long, value_name = "FILE", num_args = 0..=1, default_missing_value = "-")]
-    pub json: Option<PathBuf>,
+    /// The results as JSON.
+    #[command(flatten)]
+    pub json: JsonFile,
     /// Folder for results and report; new, empty, or of the same run [default: out/eval/TASK-METHOD-EVENTS]
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
@@ -157,16 +141,17 @@ impl From<&Eval> for Evaluation {
 
 impl From<&Eval> for Answers {
     fn from(options: &Eval) -> Self {
-        let (method, weights, minds) = match options {
-            Eval::Goals(options) => (&options.method, &options.weights, options.minds),
-            Eval::Trajectories(options) => (&options.method, &options.weights, options.minds),
+        let method = match options {
+            Eval::Goals(options) => &options.method,
+            Eval::Trajectories(options) => &options.method,
         };
-        match &options.common().predictions {
+        let common = options.common();
+        match &common.predictions {
             Some(file) => Self::Predictions(file.clone()),
             None => Self::Method {
                 name: method.clone().unwrap_or_default(),
-                weights: weights.clone(),
-                minds: MindOptions::from(minds).into(),
+                weights: common.weights.clone(),
+                minds: common.minds.into(),
             },
         }
     }
@@ -178,38 +163,4 @@ fn seconds(text: &str) -> Result<f64, String> {
     let number: f64 = text.trim().parse().map_err(|_| rule())?;
     let fits = number > 0.0 && number <= 3600.0 && (number * 4.0).fract() == 0.0;
     fits.then_some(number).ok_or_else(rule)
-}
-
-/// Reads a split by its name.
-#[must_use]
-pub fn splits() -> impl TypedValueParser<Value = Split> {
-    let names = PossibleValuesParser::new(Split::ALL.map(Split::name));
-    names.try_map(|name| Split::ALL.into_iter().find(|split| split.name() == name).ok_or("no such split"))
-}
-
-/// Minds that SIMPLE imagines.
-#[derive(Args, Clone, Copy, Debug, Default)]
-pub struct ImaginedMinds {
-    /// Minds that SIMPLE imagines, and no others: `phase`, or `published`, those of the published simulator
-    /// [default: `simple` averages over both, `simple-published` has published minds, the other variants
-    /// ours]
-    #[arg(long, value_name = "MINDS", hide_possible_values = true, value_parser = mind_kinds())]
-    pub minds: Option<MindKind>,
-    /// All turns of these minds go one way, as in the published recordings: left, and right in a reflected
-    /// layout
-    #[arg(long)]
-    pub one_way_turns: bool,
-    /// Agents of the greatest strength coast when they mean to stop, as in the published recordings
-    #[arg(long)]
-    pub strongest_coasts: bool,
-    /// Published minds draw the random numbers of the original, which repeat in every search
-    #[arg(long)]
-    pub original_random: bool,
-}
-
-impl From<ImaginedMinds> for MindOptions {
-    fn from(options: ImaginedMinds) -> Self {
-        let ImaginedMinds { minds, one_way_turns, strongest_coasts, original_random } = options;
-        Self { minds, one_way_turns, strongest_coasts, original_random }
-    }
 }

@@ -1,11 +1,7 @@
 //! The options of `new-scene`.
 
-use crate::output::Output;
-use clap::{
-    Args,
-    builder::{PossibleValuesParser, TypedValueParser},
-    value_parser,
-};
+use crate::{named::named, output::Output};
+use clap::{Args, value_parser};
 use phase_model::EventKind;
 use std::path::PathBuf;
 
@@ -13,7 +9,8 @@ use std::path::PathBuf;
 #[derive(Args, Debug)]
 pub struct NewScene {
     /// The kind of event that the scene is set up for
-    #[arg(long, value_name = "KIND", default_value = EventKind::Helping.name(), value_parser = kinds())]
+    #[arg(long, value_name = "KIND", default_value = EventKind::Helping.name(),
+        value_parser = named(EventKind::ALL, EventKind::name))]
     pub kind: EventKind,
     /// The base layout, 0 to 21 [default: one that fits the kind]
     #[arg(long, value_name = "N", value_parser = value_parser!(u8).range(0..=21))]
@@ -27,10 +24,4 @@ pub struct NewScene {
     /// Form in which the result is printed.
     #[command(flatten)]
     pub output: Output,
-}
-
-/// Reads a kind of event by its name.
-fn kinds() -> impl TypedValueParser<Value = EventKind> {
-    let names = PossibleValuesParser::new(EventKind::ALL.map(EventKind::name));
-    names.try_map(|name| EventKind::named(&name).ok_or("no such kind of event"))
 }

@@ -1,6 +1,6 @@
 //! Options of `serve`.
 
-use crate::{effort::SimulationOptions, eval::options::splits};
+use crate::{effort::SimulationOptions, named::named};
 use clap::{Args, value_parser};
 use phase_dataset::splits::Split;
 use std::{net::SocketAddr, path::PathBuf};
@@ -32,7 +32,7 @@ pub struct Serve {
         value_name = "SPLIT",
         hide_possible_values = true,
         requires = "scenes",
-        value_parser = splits()
+        value_parser = named(Split::ALL, Split::name)
     )]
     pub split: Option<Split>,
     /// Scenes of a game after the practice, 1 to 1000; those that were played least come first

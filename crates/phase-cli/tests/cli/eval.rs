@@ -202,12 +202,9 @@ fn parts_are_merged_to_the_bytes_of_one_run() {
         assert!(!path.join("other").exists(), "{told}");
         told
     };
-    assert!(refused(&["part1", "part2", "part4"]).contains("part 3 of 4 is missing"));
-    assert!(refused(&["part1", "part2", "part3"]).contains("part 4 of 4 is missing"));
-    assert!(
-        refused(&["part1", "part2", "part2", "part3", "part4"])
-            .contains("is part 2 of 4, as another folder is")
-    );
+    assert!(refused(&["part1", "part2", "part4"]).contains("shard 3 of 4 is missing"));
+    assert!(refused(&["part1", "part2", "part3"]).contains("shard 4 of 4 is missing"));
+    assert!(refused(&["part1", "part2", "part2", "part3", "part4"]).contains("are both shard 2"));
     assert!(refused(&["part1", "whole"]).contains("holds no finished part"));
     let cue = GOALS.map(|word| if word == "chance" { "cue" } else { word });
     let told = refuse(path, &[&cue[..], &["--out", "other", "--merge", "part1"]].concat());

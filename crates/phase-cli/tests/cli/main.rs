@@ -1,6 +1,5 @@
 //! The command line, run as a program.
 
-mod ahead;
 mod bad_input;
 mod benchmark;
 mod blocks;
@@ -28,6 +27,7 @@ mod shell;
 mod simulate;
 mod study;
 mod support;
+mod threads;
 #[cfg(feature = "networks")]
 mod train;
 mod verify;

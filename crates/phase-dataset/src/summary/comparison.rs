@@ -4,10 +4,9 @@ use super::Quartiles;
 use crate::ids;
 use phase_event::{Event, Recording};
 use phase_evidence::{GoalOutcome, MotionStatistics, Track, motion::common_steps};
-use phase_files::{FileError, checksum::FileEntry};
+use phase_files::checksum::FileEntry;
 use phase_model::{AGENT_COUNT, AgentId, EventKind, Goal, Sign};
 use serde::{Deserialize, Serialize};
-use std::path::Path;
 
 /// One event, recorded and simulated, as the summary keeps it.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
@@ -109,23 +108,21 @@ impl MotionSummary {
 }
 
 impl MeasuredPair {
-    /// Compares a recording with the simulation of this id and seed, whose files are already in a folder.
-    ///
-    /// # Errors
-    /// If a file cannot be read.
+    /// Compares a recording with the simulation of this id and seed, whose files are its JSON and perhaps a
+    /// video.
+    #[must_use]
     pub fn of(
-        folder: &Path,
         recording: &Recording,
         id: String,
         seed: u64,
-        event: &Event,
-        video: bool,
-    ) -> Result<Self, FileError> {
+        simulated: &Event,
+        (event, video): (FileEntry, Option<FileEntry>),
+    ) -> Self {
         let track = Track { physics: recording.scene.physics(), states: recording.trajectory.states() };
-        let ours = Track::of_event(event);
+        let ours = Track::of_event(simulated);
         let steps = common_steps(&track, &ours);
         let recorded = AgentId::ALL.map(|agent| MotionStatistics::of(&track, agent, steps));
-        let simulated = AgentId::ALL.map(|agent| MotionStatistics::of(&ours, agent, steps));
+        let motion = AgentId::ALL.map(|agent| MotionStatistics::of(&ours, agent, steps));
         let agents = core::array::from_fn(|i| {
             let agent = &recording.scene.agents[i];
             AgentComparison {
@@ -134,20 +131,20 @@ impl MeasuredPair {
                 recorded: GoalOutcome::of(&track, agent.goal),
                 simulated: GoalOutcome::of(&ours, agent.goal),
                 recorded_motion: MotionSummary::of(&recorded[i]),
-                simulated_motion: MotionSummary::of(&simulated[i]),
+                simulated_motion: MotionSummary::of(&motion[i]),
             }
         });
         let comparison = EventComparison {
             kind: recording.scene.kind,
             recorded_steps: recording.trajectory.steps(),
-            simulated_steps: event.steps.len(),
+            simulated_steps: simulated.steps.len(),
             compared_steps: steps,
             agents,
-            event: FileEntry::of(folder, format!("{id}.json"))?,
-            video: video.then(|| FileEntry::of(folder, format!("{id}.mp4"))).transpose()?,
+            event,
+            video,
             source: RecordingSource { id: recording.id.clone(), seed },
             id,
         };
-        Ok(Self { comparison, recorded, simulated })
+        Self { comparison, recorded, simulated: motion }
     }
 }

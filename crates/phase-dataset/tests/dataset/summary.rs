@@ -6,6 +6,7 @@ use phase_dataset::summary::{
 };
 use phase_event::{Event, Recording};
 use phase_evidence::{GoalOutcome, MotionStatistics};
+use phase_files::measured;
 use phase_model::{AgentId, EventKind, Goal, LandmarkId, Sign, arena::SUBSTEPS};
 use serde_json::{Value, json};
 use std::fs;
@@ -185,7 +186,7 @@ fn walk(steps: usize, stride: f32) -> Event {
 #[test]
 fn a_pair_is_measured_over_the_steps_both_have() {
     let folder = tempfile::tempdir().expect("a folder");
-    fs::write(folder.path().join("a-seed3.json"), "{}").expect("written");
+    let file = measured::write(folder.path(), "a-seed3.json", b"{}").expect("written");
     let recording = Recording::of_event("a", walk(6, 0.1), String::new(), Value::Null);
     let mut ours = walk(4, 0.05);
     // An object lies under agent 1 in the third and the fourth step.
@@ -194,8 +195,7 @@ fn a_pair_is_measured_over_the_steps_both_have() {
             state.bodies[2].position = state.bodies[1].position;
         }
     }
-    let pair =
-        MeasuredPair::of(folder.path(), &recording, "a-seed3".into(), 3, &ours, false).expect("compared");
+    let pair = MeasuredPair::of(&recording, "a-seed3".into(), 3, &ours, (file, None));
     let kept = &pair.comparison;
     assert_eq!((kept.id.as_str(), kept.source.id.as_str(), kept.source.seed), ("a-seed3", "a", 3));
     assert_eq!((kept.recorded_steps, kept.simulated_steps, kept.compared_steps), (6, 4, 4));

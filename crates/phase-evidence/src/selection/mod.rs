@@ -9,9 +9,9 @@ mod common;
 mod drawn;
 mod kinds;
 
-use crate::{Effect, GoalOutcome, Manner, Track, contact, manner};
+use crate::{Effect, GoalOutcome, Manner, Track, contact};
 use core::ops::RangeInclusive;
-use phase_model::{AgentId, Attitude, Entity, EventKind, Goal, Scene, Sign};
+use phase_model::{AgentId, Attitude, Entity, Goal, Scene, Sign};
 use serde::{Deserialize, Serialize};
 
 /// Minimum duration for something to be seen (steps): three quarters of a second of video.
@@ -131,7 +131,9 @@ impl Counterfactual {
     /// The scene to simulate, with the event's own seed: the idle agent is neutral.
     #[must_use]
     pub fn scene(&self, scene: &Scene) -> Scene {
-        with_neutral(scene, self.idle)
+        let mut scene = scene.clone();
+        scene.agents[self.idle].attitude = Attitude::Neutral;
+        scene
     }
 
     /// Compares the event with the one in which the agent did nothing. Goals are the event's own.
@@ -148,27 +150,6 @@ impl Counterfactual {
             CausalEffect::Hindered => effect.hindered() || farther || escapes(goal, event, without),
         };
         if shown { Ok(()) } else { Err(RejectionReason::NoEffect) }
-    }
-}
-
-/// The scene with a neutral agent: what is simulated with that agent idle.
-#[must_use]
-pub fn with_neutral(scene: &Scene, agent: AgentId) -> Scene {
-    let mut scene = scene.clone();
-    scene.agents[agent].attitude = Attitude::Neutral;
-    scene
-}
-
-/// The agents of which [`check_event`] may name one as [`Counterfactual::idle`], whatever happens in the
-/// scene's event.
-#[must_use]
-pub fn possibly_idle(scene: &Scene) -> Vec<AgentId> {
-    match scene.kind {
-        EventKind::Helping | EventKind::Hindering => vec![manner::social_agent(scene)],
-        EventKind::Chasing => vec![kinds::chaser(scene).other()],
-        // The winner, whoever that will be.
-        EventKind::Competing => AgentId::ALL.to_vec(),
-        EventKind::Collaborating | EventKind::Independent => Vec::new(),
     }
 }
 

@@ -1,12 +1,12 @@
 //! Synthetic events that end at a sampled step: those that show their label, and reasons why others do not.
 
 use crate::{
-    selection::{STEPS, THING, event, facing, fetch, judged, on_way, place, scene},
+    selection::{STEPS, THING, event, facing, fetch, on_way, place, scene},
     support::Move,
 };
 use phase_evidence::{
     Manner, Track,
-    selection::{CausalEffect, Counterfactual, Ending, RejectionReason},
+    selection::{CausalEffect, Counterfactual, Ending, RejectionReason, check_event},
 };
 use phase_model::{AgentId, Attitude, EventKind, Scene};
 
@@ -15,7 +15,7 @@ fn drawn(
     track: &Track,
     manner: Option<Manner>,
 ) -> Result<Option<Counterfactual>, RejectionReason> {
-    judged(scene, track, 20..=100, Ending::Drawn(manner))
+    check_event(scene, track, 20..=100, Ending::Drawn(manner))
 }
 
 /// As `fetch`, and agent 1 sets out for the object.

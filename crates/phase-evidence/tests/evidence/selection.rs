@@ -1,29 +1,14 @@
 //! Synthetic events that show their label, and reasons why others do not.
 
 use crate::support::{Move, track};
-use core::ops::RangeInclusive;
 use phase_evidence::{
     Track,
-    selection::{CausalEffect, Counterfactual, Ending, RejectionReason, check_event, possibly_idle},
+    selection::{CausalEffect, Counterfactual, Ending, RejectionReason, check_event},
 };
 use phase_model::{
     AgentId, AgentSpec, Attitude, Body, EventKind, Goal, LandmarkId, Layout, ObjectId, ObjectSpec, Scene,
     Sign, Size, Strength,
 };
-
-/// The judgement of [`check_event`]; the agent that it wants to be idle is one that could be told before.
-pub(super) fn judged(
-    scene: &Scene,
-    track: &Track,
-    lengths: RangeInclusive<usize>,
-    ending: Ending,
-) -> Result<Option<Counterfactual>, RejectionReason> {
-    let judged = check_event(scene, track, lengths, ending);
-    if let Ok(Some(counterfactual)) = judged {
-        assert!(possibly_idle(scene).contains(&counterfactual.idle), "{counterfactual:?}");
-    }
-    judged
-}
 
 /// Steps of the synthetic events.
 pub(super) const STEPS: usize = 40;
@@ -114,7 +99,7 @@ fn help_needs_a_goal_reached_in_time_a_hand_and_a_quiet_end() {
         change: CausalEffect::Helped,
         cut: false,
     };
-    assert_eq!(judged(&scene, &good, STEPS..=100, Ending::Settled), Ok(Some(counterfactual)));
+    assert_eq!(check_event(&scene, &good, STEPS..=100, Ending::Settled), Ok(Some(counterfactual)));
     assert_eq!(check_event(&scene, &good, 41..=100, Ending::Settled), Err(RejectionReason::TooShort));
     assert_eq!(check_event(&scene, &good, 10..=39, Ending::Settled), Err(RejectionReason::TooLong));
 
@@ -187,7 +172,7 @@ fn hindrance_needs_a_victim_after_something_and_somebody_in_its_way() {
         change: CausalEffect::Hindered,
         cut: false,
     };
-    assert_eq!(judged(&scene, &event(stopped), STEPS..=100, Ending::Settled), Ok(Some(counterfactual)));
+    assert_eq!(check_event(&scene, &event(stopped), STEPS..=100, Ending::Settled), Ok(Some(counterfactual)));
     let lazy = event(|t| Move { agents: [(22.4, 19.5, 0.0), (8.0, 19.5, t as f32)], ..stopped(t) });
     assert_eq!(refusal(&scene, &lazy), Some(RejectionReason::Aimless));
     let aloof = event(|t| Move { agents: [(8.0, 4.0, 0.0), stopped(t).agents[1]], ..stopped(t) });
@@ -235,7 +220,7 @@ fn a_chase_needs_pursuit_and_flight() {
         cut: false,
     };
     let good = event(|t| hunt(t, 0.2));
-    assert_eq!(judged(&scene, &good, STEPS..=100, Ending::Settled), Ok(Some(counterfactual)));
+    assert_eq!(check_event(&scene, &good, STEPS..=100, Ending::Settled), Ok(Some(counterfactual)));
     assert_eq!(refusal(&scene, &event(|t| hunt(t, 0.0))), Some(RejectionReason::NoFlight));
     // An agent that flees for a while and is then held down was not chased but caught.
     let pinned = |since: usize| {
@@ -261,7 +246,7 @@ fn a_chase_needs_pursuit_and_flight() {
         change: CausalEffect::Hindered,
         cut: false,
     };
-    assert_eq!(judged(&evading, &good, STEPS..=100, Ending::Settled), Ok(Some(counterfactual)));
+    assert_eq!(check_event(&evading, &good, STEPS..=100, Ending::Settled), Ok(Some(counterfactual)));
 }
 
 #[test]
@@ -284,7 +269,7 @@ fn a_contest_needs_two_at_the_object_and_an_issue() {
         change: CausalEffect::Hindered,
         cut: false,
     };
-    assert_eq!(judged(&scene, &event(met), STEPS..=100, Ending::Settled), Ok(Some(counterfactual)));
+    assert_eq!(check_event(&scene, &event(met), STEPS..=100, Ending::Settled), Ok(Some(counterfactual)));
     assert_eq!(refusal(&scene, &event(fetch)), Some(RejectionReason::Aimless));
     let near_miss =
         |t| Move { agents: [met(t).agents[0], facing(on_way(t, (12.0, 14.0), (12.0, 9.0), 0..6))], ..met(t) };
@@ -297,7 +282,7 @@ fn a_contest_needs_two_at_the_object_and_an_issue() {
             Move { agents: [first, met(t).agents[1]], objects: vec![(12.0, 4.5)], held: [held, held] }
         }
     };
-    assert!(judged(&scene, &event(tug(5)), STEPS..=100, Ending::Settled).is_ok());
+    assert!(check_event(&scene, &event(tug(5)), STEPS..=100, Ending::Settled).is_ok());
     assert_eq!(refusal(&scene, &event(tug(4))), Some(RejectionReason::Uncontested));
 }
 
@@ -331,7 +316,7 @@ fn independent_agents_reach_their_goals_and_leave_each_other_alone() {
         step.agents[1] = facing(on_way(t, (8.0, 19.5), (23.5, 19.5), 0..20));
         step
     };
-    assert_eq!(judged(&scene, &event(walk), STEPS..=100, Ending::Settled), Ok(None));
+    assert_eq!(check_event(&scene, &event(walk), STEPS..=100, Ending::Settled), Ok(None));
     assert_eq!(refusal(&scene, &event(fetch)), Some(RejectionReason::GoalMissed));
     let meddling = event(|t| Move { held: [walk(t).held[0], (t == 3).then_some(0)], ..walk(t) });
     assert_eq!(refusal(&scene, &meddling), Some(RejectionReason::Interference));

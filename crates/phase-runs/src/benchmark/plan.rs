@@ -106,9 +106,6 @@ pub(super) fn needs_networks(run: &BenchmarkRun) -> bool {
 }
 
 /// All evaluations, the quickest first, so that errors show early.
-///
-/// # Errors
-/// If a file of weights cannot be used.
 pub(super) fn entries(run: &BenchmarkRun) -> Result<Vec<BenchmarkEntry>, RunError> {
     let mut entries = Vec::new();
     for file in &run.trained {

@@ -45,9 +45,6 @@ pub(super) struct Rows<'a> {
 
 impl<'a> Rows<'a> {
     /// No rows yet.
-    ///
-    /// # Errors
-    /// If the events cannot be used.
     pub(super) fn open(run: &'a BenchmarkRun, listener: &dyn Listener) -> Result<Self, RunError> {
         let common = |events: &Path, split| Evaluation {
             split,
@@ -118,9 +115,6 @@ impl<'a> Rows<'a> {
     }
 
     /// Has a method evaluated, unless that is already done.
-    ///
-    /// # Errors
-    /// Any [`RunError`].
     pub(super) fn add(
         &mut self,
         entry: &BenchmarkEntry,
@@ -169,9 +163,6 @@ impl<'a> Rows<'a> {
     }
 
     /// Takes over a finished evaluation.
-    ///
-    /// # Errors
-    /// If it is invalid, or one of other events.
     pub(super) fn add_results(&mut self, file: &Path) -> Result<(), RunError> {
         let results = json::read(file)?;
         let fail = |rule: String| {

@@ -36,9 +36,6 @@ pub(super) type Answered<A> = Option<(A, Value, Option<f64>)>;
 
 impl<M: ?Sized, A: Clone> AnswerSource<M, A> {
     /// The answers of one of PHASE's methods, which `method` finds, or those that `file` reads.
-    ///
-    /// # Errors
-    /// Those of `method` and `file`.
     pub(super) fn of(
         answers: &Answers,
         method: impl FnOnce(&str, Option<&Path>, &MindChoice) -> Result<Box<M>, RunError>,
@@ -84,9 +81,6 @@ impl<M: ?Sized, A: Clone> AnswerSource<M, A> {
 
     /// The answer to an event: the file's, or the one that `ask` gets from the method, with the CPU time that
     /// it takes.
-    ///
-    /// # Errors
-    /// If there is none.
     pub(super) fn answer(
         &self,
         event: &Event,
@@ -118,9 +112,6 @@ pub(super) struct PredictionsFile<A> {
 
 impl<A> PredictionsFile<A> {
     /// Reads a file. `parse` finds the answers by the ids of their events, `fit` adapts each to its event.
-    ///
-    /// # Errors
-    /// If the file cannot be used, or an event has no answer or an invalid one.
     pub(super) fn read(
         file: &Path,
         input: &Input,

@@ -30,9 +30,6 @@ pub(crate) struct Goals {
 
 impl Goals {
     /// The task for answers to some events.
-    ///
-    /// # Errors
-    /// If there is no such method or file, or the file cannot be used.
     pub(crate) fn of(answers: &Answers, input: &Input, listener: &dyn Listener) -> Result<Self, RunError> {
         let file = |file: &Path| {
             PredictionsFile::read(file, input, listener, predictions::goals, |_, answer| Ok(answer))

@@ -53,9 +53,6 @@ pub(crate) struct Event {
 
 impl Input {
     /// Opens a file or dataset and applies the selection.
-    ///
-    /// # Errors
-    /// If it cannot be used, or the selection is empty.
     pub(crate) fn open(evaluation: &Evaluation, listener: &dyn Listener) -> Result<Self, RunError> {
         let path = &evaluation.events;
         let source = EventInput::open(path, &[], listener)?;
@@ -82,9 +79,6 @@ impl Input {
     }
 
     /// Loads one of the events.
-    ///
-    /// # Errors
-    /// If its file cannot be used.
     pub(crate) fn load(&self, event: &Event) -> Result<Cow<'_, Recording>, RunError> {
         self.source.load(event.index)
     }

@@ -20,9 +20,6 @@ pub(crate) struct Ratings {
 
 impl Ratings {
     /// Reads a file, which has to be about some of the events.
-    ///
-    /// # Errors
-    /// If the file cannot be used, or it is about none of them.
     pub(crate) fn read(file: &Path, inputs: &[&Input], listener: &dyn Listener) -> Result<Self, RunError> {
         let bytes = json::bytes(file)?;
         let fail = |problem: Problem| FileError { file: file.to_owned(), problem };

@@ -1,7 +1,7 @@
 //! An evaluation in several parts: `shard.json` in the folder of a part, and the parts that are merged.
 
 use super::task::{AnswerStore, EVENTS};
-use crate::error::RunError;
+use crate::{error::RunError, resume::check_complete};
 use phase_files::{FileError, Problem, atomic, json, run::Run};
 use phase_model::json::check_format;
 use serde::{Deserialize, Serialize};
@@ -47,9 +47,6 @@ pub(super) fn run_of(whole: &Run, shard: Option<(usize, usize)>) -> Run {
 }
 
 /// Marks a part as done.
-///
-/// # Errors
-/// If the file cannot be written.
 pub(super) fn write(out: &Path, shard: usize, of: usize, whole: &Run, program: &str) -> Result<(), RunError> {
     let format = SHARD_FORMAT.into();
     let whole = whole.value().clone();
@@ -58,9 +55,6 @@ pub(super) fn write(out: &Path, shard: usize, of: usize, whole: &Run, program: &
 }
 
 /// Reads what a folder is a part of.
-///
-/// # Errors
-/// If there is no finished part of an evaluation.
 pub(super) fn read(folder: &Path) -> Result<EvaluationShard, RunError> {
     let file = folder.join(SHARD_FILE);
     if folder.is_dir() && !file.exists() {
@@ -85,9 +79,6 @@ pub(super) struct Merged(Vec<AnswerStore>);
 
 /// Opens the parts, in any order; `None` if there are none. All parts of the evaluation must be there, made
 /// by one program.
-///
-/// # Errors
-/// [`RunError::Usage`], [`FolderError`](phase_files::folder::FolderError), or if a part cannot be used.
 pub(super) fn open(folders: &[PathBuf], whole: &Run) -> Result<Option<Merged>, RunError> {
     let mut parts = Vec::new();
     for folder in folders {
@@ -97,24 +88,15 @@ pub(super) fn open(folders: &[PathBuf], whole: &Run) -> Result<Option<Merged>, R
     }
     parts.sort_by_key(|(part, _)| part.shard);
     let Some((first, place)) = parts.first() else { return Ok(None) };
-    for (number, (part, folder)) in (1..).zip(&parts) {
+    for (part, folder) in &parts {
         if part.of != first.of || part.program != first.program {
             let folder = folder.display();
             let place = place.display();
             let rule = "is no part of the same division by the same program as";
             return Err(RunError::Usage(format!("{folder}: {rule} {place}")));
         }
-        if part.shard > number {
-            return Err(RunError::Usage(format!("--merge: part {number} of {} is missing", first.of)));
-        }
-        if part.shard < number {
-            let rule = format!("is part {} of {}, as another folder is", part.shard, part.of);
-            return Err(RunError::Usage(format!("{}: {rule}", folder.display())));
-        }
     }
-    if parts.len() < first.of {
-        return Err(RunError::Usage(format!("--merge: part {} of {} is missing", parts.len() + 1, first.of)));
-    }
+    check_complete(first.of, parts.iter().map(|(part, folder)| (part.shard, folder.as_path())))?;
     let store = |(part, folder): (EvaluationShard, &PathBuf)| AnswerStore {
         folder: folder.join(EVENTS),
         program: part.program,

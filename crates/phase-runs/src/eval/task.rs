@@ -13,6 +13,7 @@ use crate::{
     interrupt,
     listener::{Listener, Progress},
     parallel::{self, make_all},
+    resume::is_finished,
     words,
 };
 use phase_dataset::shard::slots;
@@ -21,7 +22,7 @@ use phase_event::{MethodError, ProgressCallback, Recording};
 use phase_files::{
     FileError, Problem, WriteError, atomic,
     checksum::{hexadecimal, sha256},
-    folder::{self, Contents, Folder},
+    folder::{self, Folder},
     json,
     run::Run,
 };
@@ -102,9 +103,6 @@ pub struct Evaluated<A> {
 }
 
 /// Does a task, or reuses its results if it is already done; `None` if only a part of it was requested.
-///
-/// # Errors
-/// Any [`RunError`].
 pub(crate) fn evaluate<T: Task>(
     task: &T,
     input: &Input,
@@ -131,18 +129,13 @@ pub(crate) fn evaluate<T: Task>(
     };
     let run = shards::run_of(&whole, shard);
     let last_file = if shard.is_some() { shards::SHARD_FILE } else { RESULTS_FILE };
-    match folder::inspect(&out, last_file)? {
-        Contents::Finished if shard.is_some() => {
-            run.check(&out, "a finished", &shards::read(&out)?.run())?;
-            folder::remove_leftovers(&out, &run)?;
-            return Ok(None);
+    if is_finished(&out, last_file, &run, listener)? {
+        if shard.is_none() {
+            return finished(&whole, subject, out).map(Some);
         }
-        Contents::Finished => return finished(&whole, subject, out).map(Some),
-        Contents::Unfinished(other) => {
-            run.check(&out, "an unfinished", &other)?;
-            listener.note(&format!("continuing in {}", out.display()));
-        }
-        Contents::Nothing => {}
+        run.check(&out, "a finished", &shards::read(&out)?.run())?;
+        folder::remove_leftovers(&out, &run)?;
+        return Ok(None);
     }
     let merged = shards::open(&evaluation.merge, &whole)?;
     let folder = Folder::claim(&out, &run)?;
@@ -259,9 +252,6 @@ impl AnswerStore {
 }
 
 /// Writes a report as Markdown and as a page, and its plots.
-///
-/// # Errors
-/// If a file cannot be written.
 pub(crate) fn write_report(out: &Path, document: &Document) -> Result<(), RunError> {
     for (file, svg) in document.plots() {
         atomic::write(&out.join(file), svg.as_bytes())?;

@@ -24,9 +24,6 @@ pub(crate) struct Trajectories {
 
 impl Trajectories {
     /// The task for answers to some events.
-    ///
-    /// # Errors
-    /// If there is no such method or file, or the file cannot be used.
     pub(crate) fn of(answers: &Answers, input: &Input, listener: &dyn Listener) -> Result<Self, RunError> {
         let fit = |event: &Event, forecast| {
             predictions::fit_prediction(&forecast, event.entities, steps_to_predict(event.steps))

@@ -56,9 +56,6 @@ pub fn complete(
 
 /// Writes the files that describe a dataset whose events have been counted into a folder; the events
 /// themselves are in another folder, or in the same. `overview` names no files yet.
-///
-/// # Errors
-/// As [`complete`].
 pub(crate) fn describe_all(
     (from, out): (&Path, &Path),
     mut overview: Overview,

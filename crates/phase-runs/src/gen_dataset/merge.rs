@@ -1,19 +1,20 @@
 //! The shards of a dataset become one.
 
 use super::{Generated, Outcome, complete::complete, run_of};
-use crate::{error::RunError, interrupt, listener::Listener, words};
+use crate::{
+    error::RunError,
+    interrupt,
+    listener::Listener,
+    resume::{check_complete, is_finished},
+    words,
+};
 use phase_dataset::{
     manifest::MANIFEST_FILE,
     parquet,
     shard::{SHARD_FILE, Shard, SlotReader},
     slot_record::{Records, SlotRecord},
 };
-use phase_files::{
-    FileError, atomic,
-    checksum::FileEntry,
-    folder::{self, Contents, Folder},
-    regular,
-};
+use phase_files::{FileError, atomic, checksum::FileEntry, folder::Folder, regular};
 use std::path::{Path, PathBuf};
 
 /// Combines all shards of a dataset, in any order, in a folder: new, empty, or of the same merge. The shards
@@ -27,13 +28,8 @@ pub fn merge(shards: &[PathBuf], out: &Path, listener: &dyn Listener) -> Result<
     let whole = &shards.first().whole;
     let finished = run_of(whole, None);
     let run = finished.clone().with("command", "merge");
-    match folder::inspect(out, MANIFEST_FILE)? {
-        Contents::Finished => return super::finished(out, whole.slots, &finished),
-        Contents::Unfinished(other) => {
-            run.check(out, "an unfinished", &other)?;
-            listener.note(&format!("continuing in {}", out.display()));
-        }
-        Contents::Nothing => {}
+    if is_finished(out, MANIFEST_FILE, &run, listener)? {
+        return super::finished(out, whole.slots, &finished);
     }
     let folder = Folder::claim(out, &run)?;
     folder.subfolder("events")?;
@@ -93,21 +89,7 @@ impl Shards {
                 )));
             }
         }
-        for number in 1..=first.of {
-            let found: Vec<&PathBuf> =
-                shards.iter().filter(|(shard, _)| shard.shard == number).map(|(_, folder)| folder).collect();
-            match found[..] {
-                [_] => {}
-                [] => return Err(RunError::Usage(format!("shard {number} of {} is missing", first.of))),
-                [one, other, ..] => {
-                    return Err(RunError::Usage(format!(
-                        "{} and {} are both shard {number}",
-                        one.display(),
-                        other.display()
-                    )));
-                }
-            }
-        }
+        check_complete(first.of, shards.iter().map(|(shard, folder)| (shard.shard, folder.as_path())))?;
         Ok(Self(shards))
     }
 

@@ -2,17 +2,14 @@
 //!
 //! A dataset is a list of slots, each of which tries scenes until one shows its label (`slot`). The result
 //! of a slot depends only on the dataset's seed and the slot's number, so threads, interruptions and shards
-//! do not affect it. [`schedule`] decides what is done next, also ahead, and `crew` does it on several
-//! threads. When all slots are filled, [`mod@complete`] writes the files that describe the whole.
+//! do not affect it. Each thread fills one slot after the other. When all slots are filled,
+//! [`mod@complete`] writes the files that describe the whole.
 
-mod attempt;
 mod command;
 pub mod complete;
-mod crew;
 pub mod merge;
 pub mod plan;
 pub(crate) mod scenes;
-pub mod schedule;
 mod set;
 pub(crate) mod slot;
 
@@ -20,7 +17,8 @@ use crate::{
     effort::{self, Effort},
     error::RunError,
     listener::Listener,
-    parallel,
+    parallel::{self, make_all},
+    resume::is_finished,
 };
 use complete::{Completed, complete};
 use phase_dataset::{
@@ -29,7 +27,7 @@ use phase_dataset::{
     shard::{self, DatasetDescription, SHARD_FILE, Shard},
 };
 use phase_files::{
-    folder::{self, Contents, Folder},
+    folder::{self, Folder},
     run::Run,
 };
 use plan::DatasetPlan;
@@ -113,14 +111,11 @@ impl Generation {
         let plan = DatasetPlan::of(self)?;
         let out = self.out.clone().unwrap_or_else(|| plan.default_folder());
         let last_file = if plan.shard.is_some() { SHARD_FILE } else { MANIFEST_FILE };
-        match folder::inspect(&out, last_file)? {
-            Contents::Finished if plan.shard.is_some() => return finished_shard(&plan, &out),
-            Contents::Finished => return finished(&out, plan.slot_count, &plan.run()),
-            Contents::Unfinished(run) => {
-                plan.run().check(&out, "an unfinished", &run)?;
-                listener.note(&format!("continuing in {}", out.display()));
-            }
-            Contents::Nothing => {}
+        if is_finished(&out, last_file, &plan.run(), listener)? {
+            return match plan.shard {
+                Some(_) => finished_shard(&plan, &out),
+                None => finished(&out, plan.slot_count, &plan.run()),
+            };
         }
         listener.detail(&format!("seed {}: {}", plan.seed, effort::description(&plan.settings)));
         self.make(&plan, out, listener)
@@ -136,7 +131,8 @@ impl Generation {
         let indices = plan.slots();
         let events = plan.events_in(&indices);
         let slots = Slots::new(plan, &folder, events, listener)?;
-        if !crew::fill(&slots, &indices, parallel::threads(self.threads))? {
+        let filled = make_all(parallel::threads(self.threads), indices.len(), |k| slots.fill(indices[k]))?;
+        if filled.is_none() {
             return Err(RunError::Interrupted(out));
         }
         // Its progress goes with it, before anything else is told.

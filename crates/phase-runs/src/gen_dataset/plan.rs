@@ -58,9 +58,6 @@ impl DatasetPlan {
     }
 
     /// The plan of a generation with the preset in a file, in place of the one it names.
-    ///
-    /// # Errors
-    /// If the file cannot be used.
     pub(crate) fn with_preset_of(generation: &Generation, file: &Path) -> Result<Self, RunError> {
         Self::with_preset(generation, file, &regular::text(file)?)
     }

@@ -85,9 +85,6 @@ impl<'a> Scenes<'a> {
 
     /// The scene of an attempt, by the attempt's seed and number: with bodies of its own, or cast on the
     /// stage of its block.
-    ///
-    /// # Errors
-    /// If none can be drawn.
     pub(crate) fn scene(&self, slot: &EventSlot, seed: u64, number: usize) -> Result<Scene, SampleError> {
         let layouts = self.pool(&slot.layouts);
         let mut random = random::stream(seed, Purpose::Scene, 0);
@@ -101,9 +98,6 @@ impl<'a> Scenes<'a> {
     }
 
     /// The scenes of an attempt at a set, in the order of its stances.
-    ///
-    /// # Errors
-    /// If none can be drawn.
     pub(crate) fn contrast(&self, slot: &SetSlot, seed: u64) -> Result<Contrast, SampleError> {
         contrast(slot, self.pool(&slot.layouts), &mut random::stream(seed, Purpose::Scene, 0))
     }

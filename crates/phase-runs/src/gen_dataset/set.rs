@@ -1,9 +1,6 @@
 //! Filling a slot with a set: events with the same scene and seed that differ in the stance of one agent.
 
-use super::{
-    attempt::{Cast, CastMember},
-    slot::Slots,
-};
+use super::slot::{Cast, CastMember, Slots};
 use crate::{error::RunError, picture};
 use phase_dataset::{
     composition::SetSlot,
@@ -26,7 +23,7 @@ impl Slots<'_> {
             CastMember { stance: Some(stance), variant: stance.variant(about), scene, settings }
         };
         let members = stances.iter().zip(contrast.scenes).map(member).collect();
-        Ok(Cast { seed, changed: Some(contrast.changed), members, compared: true })
+        Ok(Cast { seed, changed: Some(contrast.changed), members })
     }
 
     /// Writes the files of a set: those of its events, and the video that shows them side by side. `changed`

@@ -1,16 +1,11 @@
 //! Content of a slot of a dataset: the scenes of its attempts, their simulation, and the files of what is
 //! accepted.
 
-use super::{
-    attempt::{Attempt, Cast, CastMember, Member},
-    plan::DatasetPlan,
-    scenes::Scenes,
-    schedule::Part,
-};
+use super::{plan::DatasetPlan, scenes::Scenes};
 use crate::{
     engine,
     error::RunError,
-    event_writer::{EventJob, EventWriter},
+    event_writer::{EventFiles, EventJob, EventWriter},
     interrupt,
     listener::Listener,
     words,
@@ -26,12 +21,17 @@ use phase_dataset::{
 use phase_event::{Event, Step, mean_state};
 use phase_evidence::{
     Track,
-    selection::{Ending, RejectionReason, certain_rejection, check_event},
+    selection::{Counterfactual, Ending, RejectionReason, certain_rejection, check_event},
 };
 use phase_files::{FileError, folder::Folder};
-use phase_model::Scene;
-use phase_sampler::{SampleError, Variant};
-use std::path::PathBuf;
+use phase_model::{AgentId, Scene};
+use phase_sampler::{SampleError, Stance, Variant};
+use phase_sim::SimulationSettings;
+use std::{
+    collections::{BTreeMap, btree_map::Entry},
+    path::PathBuf,
+    time::Instant,
+};
 
 /// The slots of a dataset that is being generated in a folder.
 pub(super) struct Slots<'a> {
@@ -44,9 +44,6 @@ pub(super) struct Slots<'a> {
 
 impl<'a> Slots<'a> {
     /// Prepares to fill the given number of slots.
-    ///
-    /// # Errors
-    /// [`RunError::Serialise`].
     pub(super) fn new(
         plan: &'a DatasetPlan,
         folder: &'a Folder,
@@ -58,8 +55,42 @@ impl<'a> Slots<'a> {
         Ok(Self { plan, folder, event_writer, scenes: Scenes::of(plan), listener })
     }
 
+    /// Tries scenes for a slot until one shows its label, and writes its files; `None` if interrupted. After
+    /// every refusal the slot's record is written, so no more is ever lost than the attempt under way.
+    pub(super) fn fill(&self, index: usize) -> Result<Option<()>, RunError> {
+        let begun = Instant::now();
+        let path = self.record_path(index);
+        let mut record = self.load(index);
+        if record.is_filled() {
+            self.report(&record, "kept");
+            return Ok(Some(()));
+        }
+        let id = self.plan.preset.id(index);
+        let attempts = self.plan.preset.selection.map_or(1, |selection| selection.attempts);
+        while record.refused.len() < attempts {
+            let number = record.refused.len();
+            let cast = self.cast(index, number)?;
+            match self.attempt(&id, &cast)? {
+                None => return Ok(None),
+                Some(Ok(events)) => {
+                    self.keep(index, &cast, events, &mut record)?;
+                    record.save(&path)?;
+                    self.report(&record, &format!("{:.1} s", begun.elapsed().as_secs_f64()));
+                    return Ok(Some(()));
+                }
+                Some(Err(refusal)) => {
+                    let reason = refusal.reason.name();
+                    self.listener.detail(&format!("{id} attempt {}: {reason}", number + 1));
+                    record.refused.push(refusal);
+                    record.save(&path)?;
+                }
+            }
+        }
+        Err(RunError::Exhausted { id, reasons: reasons(&record.refused) })
+    }
+
     /// The record of a slot: filled, if its files are all there, or as far as an earlier run came.
-    pub(super) fn load(&self, index: usize) -> SlotRecord {
+    fn load(&self, index: usize) -> SlotRecord {
         let mut record = SlotRecord::load(&self.record_path(index), &self.plan.fingerprint);
         if record.is_filled() && record.files().any(|file| file.verify(self.folder.path()).is_err()) {
             (record.entries, record.set) = (Vec::new(), None);
@@ -67,31 +98,13 @@ impl<'a> Slots<'a> {
         record
     }
 
-    /// The id of a slot.
-    pub(super) fn id(&self, index: usize) -> String {
-        self.plan.preset.id(index)
-    }
-
     /// Path of the record of a slot.
-    pub(super) fn record_path(&self, index: usize) -> PathBuf {
+    fn record_path(&self, index: usize) -> PathBuf {
         record_path(self.plan, self.folder, index)
     }
 
-    /// Most attempts at a slot.
-    pub(super) fn most_attempts(&self) -> usize {
-        self.plan.preset.selection.map_or(1, |selection| selection.attempts)
-    }
-
-    /// The variants of a slot's events.
-    pub(super) fn variants(&self, index: usize) -> Vec<Variant> {
-        match self.plan.composition.set(index) {
-            Some(slot) => slot.stances.iter().map(|stance| stance.variant(slot.about)).collect(),
-            None => vec![self.plan.composition.slot(index).variant],
-        }
-    }
-
     /// The slot's events are done.
-    pub(super) fn report(&self, record: &SlotRecord, how: &str) {
+    fn report(&self, record: &SlotRecord, how: &str) {
         let attempts = record.refused.len() + 1;
         let tried = if attempts == 1 { String::new() } else { format!(" at attempt {attempts}") };
         for entry in &record.entries {
@@ -103,18 +116,8 @@ impl<'a> Slots<'a> {
         }
     }
 
-    /// An attempt was rejected.
-    pub(super) fn report_refusal(&self, id: &str, number: usize, refusal: Refusal) {
-        self.listener.detail(&format!("{id} attempt {}: {}", number + 1, refusal.reason.name()));
-    }
-
-    /// So many attempts were begun ahead and do not count.
-    pub(super) fn report_dropped(&self, attempts: usize) {
-        self.listener.detail(&format!("attempts begun ahead that did not count: {attempts}"));
-    }
-
     /// Draws the scenes of an attempt.
-    pub(super) fn cast(&self, index: usize, number: usize) -> Result<Cast, SampleError> {
+    fn cast(&self, index: usize, number: usize) -> Result<Cast, SampleError> {
         let seed = engine::attempt_seed(self.plan.seed, index, number);
         if let Some(slot) = self.plan.composition.set(index) {
             return self.cast_set(index, &slot, seed);
@@ -123,45 +126,63 @@ impl<'a> Slots<'a> {
         let scene = self.scenes.scene(&slot, seed, number)?;
         let settings = self.scenes.settings(scene.relation(), seed, index);
         let members = vec![CastMember { stance: None, variant: slot.variant, scene, settings }];
-        Ok(Cast { seed, changed: None, members, compared: self.plan.preset.selection.is_some() })
+        Ok(Cast { seed, changed: None, members })
     }
 
-    /// Runs a simulation of an attempt, and adds it to its results; `false` if interrupted or no longer
-    /// wanted.
-    pub(super) fn simulate(&self, index: usize, attempt: &Attempt, part: Part) -> Result<bool, RunError> {
-        let Some(cast) = attempt.cast() else { return Ok(false) };
-        let Some((scene, settings)) = cast.simulation(part) else { return Ok(false) };
-        let id = self.plan.preset.id(index);
-        let simulate = |on_step: &mut dyn FnMut(&Step) -> ControlFlow<()>| {
-            engine::simulate(&id, &scene, cast.seed, &settings, on_step)
-        };
-        match part {
-            Part::Member(k) => {
-                let member = &cast.members[k];
-                let selection = self.plan.preset.selection.as_ref();
-                let mut watch = Watch::new(
-                    &scene,
-                    selection.map(|it| required(it, member.variant, member.stance.is_some())),
-                );
-                let event = simulate(&mut |step| {
-                    attempt.goes_on(interrupt::requested())?;
-                    watch.goes_on(step)
-                })?;
-                let Some(member) = watch.judge(event) else { return Ok(false) };
-                attempt.results().add_member(k, member);
-            }
-            Part::Idle { member, agent } => {
-                let event = simulate(&mut |_| attempt.goes_on(interrupt::requested()))?;
-                let Some(event) = event else { return Ok(false) };
-                let track = Track::of_event(&event);
-                attempt.results().add_idle(member, agent, track);
+    /// Simulates the events of an attempt, and where necessary what happens while an agent is idle: the
+    /// events, or the first reason in order for which one of them is refused; `None` if interrupted.
+    fn attempt(&self, id: &str, cast: &Cast) -> Result<Option<Result<Vec<Event>, Refusal>>, RunError> {
+        let mut shown = Vec::with_capacity(cast.members.len());
+        for member in &cast.members {
+            match self.simulate(id, cast.seed, member)? {
+                None => return Ok(None),
+                Some(Ok(event)) => shown.push(event),
+                Some(Err(reason)) => return Ok(Some(Err(member.refusal(reason)))),
             }
         }
-        Ok(true)
+        let mut idle: BTreeMap<AgentId, Track> = BTreeMap::new();
+        for (member, ShownEvent { event, track, counterfactual }) in cast.members.iter().zip(&shown) {
+            let Some(counterfactual) = counterfactual else { continue };
+            // Where the changed agent of a set does nothing, its stance makes no difference: one simulation
+            // serves all comparisons with it.
+            let without = match idle.entry(counterfactual.idle) {
+                Entry::Occupied(known) => known.into_mut(),
+                Entry::Vacant(place) => {
+                    let settings = SimulationSettings { idle: Some(counterfactual.idle), ..member.settings };
+                    let scene = counterfactual.scene(&member.scene);
+                    let go_on = &mut |_: &Step| interrupt::goes_on();
+                    let event = engine::simulate(id, &scene, cast.seed, &settings, go_on)?;
+                    let Some(event) = event else { return Ok(None) };
+                    place.insert(Track::of_event(&event))
+                }
+            };
+            if let Err(reason) = counterfactual.judge(&event.scene, track, without) {
+                return Ok(Some(Err(member.refusal(reason))));
+            }
+        }
+        Ok(Some(Ok(shown.into_iter().map(|shown| shown.event).collect())))
+    }
+
+    /// Simulates one event of an attempt and tests it by itself; `None` if interrupted.
+    fn simulate(
+        &self,
+        id: &str,
+        seed: u64,
+        member: &CastMember,
+    ) -> Result<Option<Result<ShownEvent, RejectionReason>>, RunError> {
+        let CastMember { scene, settings, .. } = member;
+        let selection = self.plan.preset.selection.as_ref();
+        let of_set = member.stance.is_some();
+        let mut watch = Watch::new(scene, selection.map(|it| required(it, member.variant, of_set)));
+        let event = engine::simulate(id, scene, seed, settings, &mut |step| {
+            interrupt::goes_on()?;
+            watch.goes_on(step)
+        })?;
+        Ok(watch.judge(event))
     }
 
     /// Writes the files of a slot, and enters them in its record.
-    pub(super) fn keep(
+    fn keep(
         &self,
         index: usize,
         cast: &Cast,
@@ -187,19 +208,52 @@ impl<'a> Slots<'a> {
 
     /// Writes the files of an accepted event.
     pub(super) fn keep_event(&self, id: &str, index: usize, event: &Event) -> Result<EventEntry, RunError> {
-        let out = self.folder.path();
         let settings = self.scenes.settings(event.scene.relation(), event.seed, index);
         let job = EventJob {
             id: id.into(),
             seed: event.seed,
             relation: None,
             lengths: Some((settings.min_steps, settings.max_steps)),
-            json: out.join(event_path(id)),
-            video: self.plan.videos.then(|| out.join(video_path(id))),
+            json: event_path(id),
+            video: self.plan.videos.then(|| video_path(id)),
         };
-        self.event_writer.write(&job, event, true)?;
-        EventEntry::of(out, id, event, self.plan.videos).map_err(RunError::ReadBack)
+        let EventFiles { json, video } = self.event_writer.write(&job, event, true)?;
+        Ok(EventEntry::with_files(id, event, json, video))
     }
+}
+
+/// The scenes of an attempt. They depend on the dataset's seed, the slot and the attempt's number alone.
+#[derive(Debug)]
+pub(super) struct Cast {
+    pub(super) seed: u64,
+    /// The agent whose stance differs, in a set.
+    pub(super) changed: Option<AgentId>,
+    /// One for each event.
+    pub(super) members: Vec<CastMember>,
+}
+
+/// A scene to be simulated.
+#[derive(Debug)]
+pub(super) struct CastMember {
+    /// The stance of the changed agent, in a set.
+    pub(super) stance: Option<Stance>,
+    pub(super) variant: Variant,
+    pub(super) scene: Scene,
+    pub(super) settings: SimulationSettings,
+}
+
+impl CastMember {
+    const fn refusal(&self, reason: RejectionReason) -> Refusal {
+        Refusal { variant: self.variant, reason }
+    }
+}
+
+/// An event that has passed the tests on itself, and the comparison that it needs.
+#[derive(Debug)]
+struct ShownEvent {
+    event: Event,
+    track: Track,
+    counterfactual: Option<Counterfactual>,
 }
 
 /// The records of a run's slots, all of which are filled.
@@ -246,7 +300,7 @@ impl<'a> Watch<'a> {
     }
 
     /// The result, if the event was completed or lost.
-    fn judge(self, event: Option<Event>) -> Option<Result<Member, RejectionReason>> {
+    fn judge(self, event: Option<Event>) -> Option<Result<ShownEvent, RejectionReason>> {
         if let Some(reason) = self.lost {
             return Some(Err(reason));
         }
@@ -255,7 +309,7 @@ impl<'a> Watch<'a> {
             Some((lengths, ending)) => check_event(&event.scene, &self.track, lengths, ending),
             None => Ok(None),
         };
-        Some(checked.map(|counterfactual| Member { event, track: self.track, counterfactual }))
+        Some(checked.map(|counterfactual| ShownEvent { event, track: self.track, counterfactual }))
     }
 }
 
@@ -274,7 +328,7 @@ pub(crate) fn required(
 }
 
 /// Variants, reasons and their numbers, in words.
-pub(super) fn reasons(refused: &[Refusal]) -> String {
+fn reasons(refused: &[Refusal]) -> String {
     let counted =
         RejectionReason::ALL.map(|reason| (reason, refused.iter().filter(|it| it.reason == reason).count()));
     let words = counted.iter().filter(|(_, count)| *count > 0);

@@ -23,9 +23,6 @@ impl Shown {
 }
 
 /// Writes the page into the folder of the events.
-///
-/// # Errors
-/// [`RunError::Write`].
 pub(super) fn write(out: &Path, seed: u64, shown: Vec<Shown>) -> Result<(), RunError> {
     let gallery = Gallery { preset: "simulated scenes", generator: GENERATOR, seed, events: shown.len() };
     let mut writer = GalleryWriter::new(out, gallery);

@@ -7,9 +7,10 @@ use crate::{
     effort::{self, Effort},
     engine::{self, GENERATOR},
     error::RunError,
-    event_writer::{EventJob, EventWriter, settings_value},
+    event_writer::{EventFiles, EventJob, EventWriter, settings_value},
     listener::Listener,
     parallel::{self, make_all},
+    resume::is_finished,
     source::{EventInput, labels_and_rows},
     words,
 };
@@ -17,7 +18,7 @@ use gallery::Shown;
 use phase_dataset::summary::{MeasuredPair, SUMMARY_FILE, SimulationSummary};
 use phase_event::Recording;
 use phase_files::{
-    folder::{self, Contents, Folder},
+    folder::{self, Folder},
     run::{self, Run},
 };
 use phase_sim::SimulationSettings;
@@ -89,13 +90,8 @@ impl Simulations {
         check_ids(self, &chosen, &seeds)?;
         let run = run_of(self, &settings, &chosen)?;
         let out = &self.out;
-        match folder::inspect(out, SUMMARY_FILE)? {
-            Contents::Finished => return finished(self, &run),
-            Contents::Unfinished(other) => {
-                run.check(out, "an unfinished", &other)?;
-                listener.note(&format!("continuing in {}", out.display()));
-            }
-            Contents::Nothing => {}
+        if is_finished(out, SUMMARY_FILE, &run, listener)? {
+            return finished(self, &run);
         }
         listener.detail(&format!("seed {}: {}", self.seed, effort::description(&settings)));
         let folder = Folder::claim(out, &run)?;
@@ -135,18 +131,17 @@ fn make(
     seed: u64,
 ) -> Result<Option<(MeasuredPair, Shown)>, RunError> {
     let id = simulated_id(simulations, recording, seed);
-    let out = &simulations.out;
-    let video = simulations.videos;
     let job = EventJob {
         id: id.clone(),
         seed: event_seed(simulations, index, recording, seed),
         relation: Some(recording.relation),
         lengths: None,
-        json: out.join(format!("{id}.json")),
-        video: video.then(|| out.join(format!("{id}.mp4"))),
+        json: format!("{id}.json"),
+        video: simulations.videos.then(|| format!("{id}.mp4")),
     };
-    let Some(event) = event_writer.make(&job, || Ok(recording.scene.clone()))? else { return Ok(None) };
-    let pair = MeasuredPair::of(out, recording, id, seed, &event, video).map_err(RunError::ReadBack)?;
+    let made = event_writer.make(&job, || Ok(recording.scene.clone()))?;
+    let Some((event, EventFiles { json, video })) = made else { return Ok(None) };
+    let pair = MeasuredPair::of(recording, id, seed, &event, (json, video));
     let shown = Shown::of(&pair.comparison, &event);
     Ok(Some((pair, shown)))
 }

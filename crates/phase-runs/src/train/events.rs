@@ -46,9 +46,6 @@ impl Events {
     }
 
     /// Checks that there are training and validation events, and training events in each further folder.
-    ///
-    /// # Errors
-    /// [`TrainError::NoEvents`].
     pub(super) fn check(&self) -> Result<(), TrainError> {
         [Split::Train, Split::Validation].into_iter().try_for_each(|split| self.of(split).map(|_| ()))?;
         match self.more.iter().find(|dataset| dataset.entries(Split::Train).next().is_none()) {
@@ -60,9 +57,6 @@ impl Events {
     }
 
     /// Reads the events of a split lazily, in the manifest's order.
-    ///
-    /// # Errors
-    /// If there are none; for each event, if its file cannot be used.
     pub(super) fn of(
         &self,
         split: Split,

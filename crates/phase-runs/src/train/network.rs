@@ -15,9 +15,6 @@ use phase_files::atomic;
 use serde_json::json;
 
 /// Trains a network on the samples that `sample` makes of events.
-///
-/// # Errors
-/// If the datasets cannot be used, training fails or a file cannot be written.
 pub(super) fn run<N: PublishedNetwork>(
     options: &Training,
     listener: &dyn Listener,

@@ -17,9 +17,6 @@ use serde_json::json;
 use std::io::Write;
 
 /// Trains and evaluates it.
-///
-/// # Errors
-/// If the dataset cannot be used, training fails or the file cannot be written.
 pub(super) fn run(options: &Training, listener: &dyn Listener) -> Result<Trained, RunError> {
     let events = Events::open(options)?;
     // An unwritable output is detected before the work.

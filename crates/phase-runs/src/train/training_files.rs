@@ -28,9 +28,6 @@ pub(super) struct TrainingFiles {
 impl TrainingFiles {
     /// Resumes an interrupted training or creates the files of a new one, so that an unwritable folder is
     /// reported before the work.
-    ///
-    /// # Errors
-    /// If there is a checkpoint of another training, or a file cannot be read or written.
     pub(super) fn open<N: Network>(
         run: &mut TrainingRun<N>,
         out: &Path,
@@ -66,9 +63,6 @@ impl TrainingFiles {
 
     /// Runs a round and records it. An interruption loses the current round and those of the last two
     /// seconds. Also returns the duration of the round (s).
-    ///
-    /// # Errors
-    /// If training fails or a file cannot be written.
     pub(super) fn round<N: Network>(
         &mut self,
         run: &mut TrainingRun<N>,
@@ -90,9 +84,6 @@ impl TrainingFiles {
 
     /// Writes the record of a training that is finished, whose weights are written, and removes the
     /// checkpoint.
-    ///
-    /// # Errors
-    /// If a file cannot be written or removed.
     pub(super) fn finish(mut self, finished: Final) -> Result<(), TrainError> {
         self.record.finished = Some(finished);
         let record = self.record.to_json().map_err(|error| WriteError::json(&self.file, error))?;

@@ -16,9 +16,6 @@ use std::{collections::BTreeMap, path::Path};
 
 /// The files that differ from what the event files, the manifest's list of events and the command in the card
 /// give.
-///
-/// # Errors
-/// [`RunError::Output`] if nothing can be written into the system's folder for temporary files.
 pub(super) fn problems(
     folder: &Path,
     manifest: &Manifest,

@@ -38,9 +38,6 @@ struct Slot {
 
 impl Origin {
     /// The plan that the command in the card describes.
-    ///
-    /// # Errors
-    /// What contradicts it, or that it cannot be followed here.
     pub(super) fn of(folder: &Path, manifest: &Manifest, checks: &Checks) -> Result<Self, Vec<FileError>> {
         let differs =
             |name: &str, what: String| FileError { file: folder.join(name), problem: Problem::Differs(what) };

@@ -27,9 +27,6 @@ use phase_sim::SimulationSettings;
 use std::path::Path;
 
 /// Everything in a dataset that is not what follows from its actions and from its preset.
-///
-/// # Errors
-/// [`RunError::Threads`] or [`RunError::Interrupted`].
 pub(super) fn problems(
     folder: &Path,
     manifest: &Manifest,
@@ -108,9 +105,6 @@ fn check_video(folder: &Path, entry: &FileEntry, drawn: Result<Vec<u8>, RunError
 }
 
 /// Simulates some events again, by index; those whose files have other bytes.
-///
-/// # Errors
-/// [`RunError::Threads`] or [`RunError::Interrupted`].
 pub(super) fn simulated_again(
     folder: &Path,
     manifest: &Manifest,

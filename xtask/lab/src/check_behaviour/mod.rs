@@ -9,7 +9,7 @@ mod trial;
 
 use crate::{check_minds::parameters, error::LabError};
 use options::CheckBehaviour;
-use phase_cli::{context::Context, interrupt, output::print_result};
+use phase_cli::{context::Context, interrupt};
 use phase_dataset::phase_events;
 use phase_files::{
     WriteError, atomic,
@@ -29,7 +29,6 @@ use phase_runs::{
 use phase_sim::SimulationSettings;
 use report::{SceneResult, Trial};
 use rows::PARTS;
-use serde_json::Value;
 use std::path::Path;
 use trial::TrialRunner;
 
@@ -45,6 +44,7 @@ const SHEET_FRAMES: usize = 15;
 /// # Errors
 /// Any [`LabError`].
 pub fn run(arguments: &CheckBehaviour, context: &Context) -> Result<(), LabError> {
+    arguments.json.check([])?;
     let scenes = scenes(arguments)?;
     let seeds = arguments.seeds as usize;
     let settings = settings(arguments)?;
@@ -80,14 +80,11 @@ pub fn run(arguments: &CheckBehaviour, context: &Context) -> Result<(), LabError
     }
     drop(runner);
     let report = report::to_json(run.value(), &results);
-    complete(arguments, folder, &report)?;
-    if to_stdout(arguments) {
-        print_result(format!("{report:#}"))?;
-        return Ok(());
-    }
-    print_result(report::table(&results).trim_end())?;
-    print_result(format!("contact sheets in {}", arguments.out.join(SHEETS).display()))?;
-    Ok(())
+    atomic::write_json(&folder.path().join(REPORT_FILE), &report).map_err(RunError::from)?;
+    folder.finish().map_err(RunError::from)?;
+    let place = arguments.out.join(SHEETS);
+    let text = format!("{}contact sheets in {}", report::table(&results), place.display());
+    Ok(arguments.json.print(&report, text)?)
 }
 
 /// The settings of the events, with the parameters of a file if one is given.
@@ -173,20 +170,6 @@ fn sheet(
         .map(|&state| RenderedState { state, minds: Vec::new(), observer: None })
         .collect();
     picture::write_sheet(path, id, &event.scene.physics(), Palette::PAPER, &items, SHEET_FRAMES)
-}
-
-fn complete(arguments: &CheckBehaviour, folder: Folder, report: &Value) -> Result<(), RunError> {
-    let text = format!("{report:#}\n");
-    atomic::write(&folder.path().join(REPORT_FILE), text.as_bytes())?;
-    if let Some(path) = arguments.json.as_ref().filter(|_| !to_stdout(arguments)) {
-        atomic::write(path, text.as_bytes()).map_err(RunError::Output)?;
-    }
-    Ok(folder.finish()?)
-}
-
-/// Whether stdout contains only the report.
-fn to_stdout(arguments: &CheckBehaviour) -> bool {
-    arguments.json.as_deref() == Some(Path::new("-"))
 }
 
 #[cfg(test)]

@@ -2,16 +2,15 @@
 
 use super::sets::SceneSet;
 use clap::{Args, value_parser};
-use phase_cli::{effort::SimulationOptions, parallel::Jobs};
+use phase_cli::{effort::SimulationOptions, json_file::JsonFile, parallel::Jobs};
 use std::path::PathBuf;
 
 /// Options of `check-behaviour`.
 #[derive(Args, Debug)]
 pub struct CheckBehaviour {
-    /// Print the report as one JSON object on stdout, and nothing else there; or, with a file, write it there
-    /// too
-    #[arg(long, value_name = "FILE", num_args = 0..=1, default_missing_value = "-")]
-    pub json: Option<PathBuf>,
+    /// The report as JSON.
+    #[command(flatten)]
+    pub json: JsonFile,
     /// Only these rows of the table in docs/results/behaviour.md
     #[arg(long, value_name = "N", num_args = 1.., value_parser = value_parser!(u8).range(1..=10))]
     pub row: Vec<u8>,

@@ -8,7 +8,7 @@ pub(crate) mod parameters;
 mod report;
 mod table;
 
-use crate::{error::LabError, json_file};
+use crate::error::LabError;
 use measure::Measurement;
 use options::CheckMinds;
 use phase_cli::{context::Context, interrupt};
@@ -35,10 +35,7 @@ const PUBLISHED_SEARCHES: u32 = 5;
 /// # Errors
 /// Any [`LabError`] about the files, or an interruption.
 pub fn run(arguments: &CheckMinds, context: &Context) -> Result<(), LabError> {
-    if let Some(out) = &arguments.json {
-        let inputs = [Some(&arguments.events), arguments.parameters.as_ref()];
-        json_file::check("--json", out, inputs.into_iter().flatten().map(|file| file.as_path()))?;
-    }
+    arguments.json.check([&arguments.events].into_iter().chain(&arguments.parameters))?;
     let parameters = arguments.parameters.as_deref().map(parameters::read).transpose()?;
     let recordings = recordings(&arguments.events, &arguments.ids, arguments.only, context)?;
     let plan = plan(arguments, agents(arguments, parameters, &recordings)?)?;
@@ -51,7 +48,7 @@ pub fn run(arguments: &CheckMinds, context: &Context) -> Result<(), LabError> {
     drop(progress);
     let Some(events) = events else { return Err(LabError::Interrupted) };
     let report = MindsReport::of(&events, description(arguments, &plan));
-    json_file::print(arguments.json.as_deref(), &report, &table::print(&report))
+    Ok(arguments.json.print(&report, table::print(&report))?)
 }
 
 /// The agents that were asked for. Those of recordings with published minds have bodies that turn one way and
@@ -103,9 +100,6 @@ fn plan(arguments: &CheckMinds, agents: ImaginedAgents) -> Result<Measurement, R
 
 /// The events of a file or folder with these ids, if there are any, and of one kind only if one is given: at
 /// least one event, and each with a step.
-///
-/// # Errors
-/// If there are no such events, or they cannot be read.
 pub(crate) fn recordings(
     file: &Path,
     ids: &[String],

@@ -1,7 +1,7 @@
 //! The options of `check-minds`.
 
-use clap::{Args, builder::PossibleValuesParser, builder::TypedValueParser, value_parser};
-use phase_cli::{effort::mind_kinds, parallel::Jobs};
+use clap::{Args, value_parser};
+use phase_cli::{json_file::JsonFile, named::named, parallel::Jobs};
 use phase_minds::MindKind;
 use phase_model::EventKind;
 use std::path::PathBuf;
@@ -13,13 +13,14 @@ pub struct CheckMinds {
     #[arg(long, value_name = "FILE|DIR")]
     pub events: PathBuf,
     /// Only events of this kind
-    #[arg(long, value_name = "KIND", value_parser = kinds())]
+    #[arg(long, value_name = "KIND", value_parser = named(EventKind::ALL, EventKind::name))]
     pub only: Option<EventKind>,
     /// Only the events with these ids
     #[arg(long, value_name = "ID", num_args = 1..)]
     pub ids: Vec<String>,
     /// The minds: `phase`, or `published`, those of the published simulator [default: phase]
-    #[arg(long, value_name = "MINDS", hide_possible_values = true, value_parser = mind_kinds())]
+    #[arg(long, value_name = "MINDS", hide_possible_values = true,
+        value_parser = named(MindKind::ALL, MindKind::name))]
     pub minds: Option<MindKind>,
     /// Published minds draw the random numbers of the original, which repeat in every search; as it searched
     /// once with 1000 simulations, so should they
@@ -46,17 +47,10 @@ pub struct CheckMinds {
     /// The seed of all random draws, the same in every event
     #[arg(long, value_name = "N", default_value_t = 1)]
     pub seed: u64,
-    /// Print the report as one JSON object on stdout, and nothing else there; or, with a file, write it there
-    /// too
-    #[arg(long, value_name = "FILE", num_args = 0..=1, default_missing_value = "-")]
-    pub json: Option<PathBuf>,
+    /// The report as JSON.
+    #[command(flatten)]
+    pub json: JsonFile,
     /// Number of events at once.
     #[command(flatten)]
     pub jobs: Jobs,
-}
-
-/// Reads a kind of event by its name.
-fn kinds() -> impl TypedValueParser<Value = EventKind> {
-    let names = PossibleValuesParser::new(EventKind::ALL.map(EventKind::name));
-    names.try_map(|name| EventKind::named(&name).ok_or("no such kind"))
 }

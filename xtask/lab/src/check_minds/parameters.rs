@@ -6,9 +6,6 @@ use phase_runs::error::RunError;
 use std::path::Path;
 
 /// The default parameters with those of a file in their place.
-///
-/// # Errors
-/// If the file cannot be used, or holds something that is no parameter, or one out of its range.
 pub(crate) fn read(file: &Path) -> Result<MindParameters, RunError> {
     let parameters = MindParameters::from_overrides(json::read(file)?);
     parameters.map_err(|error| RunError::Usage(format!("{}: {error}", file.display())))

@@ -4,7 +4,7 @@ pub mod options;
 mod table;
 mod targets;
 
-use crate::{error::LabError, json_file};
+use crate::error::LabError;
 use options::CheckPhysics;
 use phase_calibration::{
     ColdForward, Engine, Probe, ReadError, Replay, Report, Run, StatelessErrors, WarmForward, WorldEngine,
@@ -37,9 +37,7 @@ pub fn run(arguments: &CheckPhysics, context: &Context) -> Result<(), LabError> 
         let rule = "check-physics needs at least one of --probes, --runs and --events";
         return Err(RunError::Usage(rule.into()).into());
     }
-    if let Some(out) = &arguments.json {
-        json_file::check("--json", out, files.into_iter().flatten().map(|file| file.as_path()))?;
-    }
+    arguments.json.check(files.into_iter().flatten())?;
     let records = Records::read(arguments, context)?;
     context.note(format!("measuring the engine {}", arguments.engine.name()));
     let (report, targets) = match arguments.engine {
@@ -60,7 +58,7 @@ pub fn run(arguments: &CheckPhysics, context: &Context) -> Result<(), LabError> 
     };
     let mirrored_left_out = report.replays.as_ref().map(|_| records.mirrored);
     let output = Output { report: &report, targets: &targets, mirrored_left_out };
-    json_file::print(arguments.json.as_deref(), &output, &table::print(&report, &targets, records.mirrored))
+    Ok(arguments.json.print(&output, table::print(&report, &targets, records.mirrored))?)
 }
 
 impl Records {

@@ -1,7 +1,7 @@
 //! The options of `check-physics`.
 
 use clap::Args;
-use phase_cli::effort::engines;
+use phase_cli::{json_file::JsonFile, named::named};
 use phase_sim::Engine;
 use std::path::PathBuf;
 
@@ -18,10 +18,10 @@ pub struct CheckPhysics {
     #[arg(long, value_name = "FILE|DIR")]
     pub events: Option<PathBuf>,
     /// The engine to check
-    #[arg(long, value_name = "ENGINE", default_value = Engine::World.name(), value_parser = engines())]
+    #[arg(long, value_name = "ENGINE", default_value = Engine::World.name(),
+        value_parser = named(Engine::ALL, Engine::name))]
     pub engine: Engine,
-    /// Print the measurements as one JSON object on stdout, and nothing else there; or, with a file, write it
-    /// there too
-    #[arg(long, value_name = "FILE", num_args = 0..=1, default_missing_value = "-")]
-    pub json: Option<PathBuf>,
+    /// The report as JSON.
+    #[command(flatten)]
+    pub json: JsonFile,
 }

@@ -7,13 +7,8 @@
 use crate::{
     error::LabError,
     fit_events::{FitEvents, KeptFigures},
-    json_file,
 };
-use phase_cli::{
-    context::Context,
-    interrupt,
-    output::{json_text, print_result},
-};
+use phase_cli::{context::Context, interrupt, output::print_result};
 use phase_eval::trajectories::{Errors, PREDICTED_STEPS, WATCHED_STEPS};
 use phase_event::{MethodError, ProgressCallback, Recording};
 use phase_model::{Forecast, Vec2};
@@ -88,7 +83,7 @@ pub fn run(arguments: &FitEvents, context: &Context) -> Result<(), LabError> {
     line("present", &ForecastSettings::default());
     if let Some((_, fitted)) = ranked.first() {
         line("fitted", fitted);
-        json_file::write(arguments.out.as_deref(), &json_text(fitted, "the settings")?)?;
+        arguments.write(fitted)?;
     }
     if let Some((_, blind)) = ranked.iter().find(|(_, it)| it.hindcast_error_rate == 0.0) {
         line("fitted, without hindcasts", blind);

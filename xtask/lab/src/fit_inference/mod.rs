@@ -14,7 +14,7 @@ pub mod options;
 mod report;
 mod weights;
 
-use crate::{check_minds::parameters, error::LabError, fit_events::KeptFigures, folds, json_file};
+use crate::{check_minds::parameters, error::LabError, fit_events::KeptFigures, folds};
 use case::{EventEvidence, INTENTS, InferenceCase};
 use grid::Grid;
 use options::FitInference;
@@ -92,7 +92,7 @@ pub fn run(arguments: &FitInference, context: &Context) -> Result<(), LabError> 
         grid: &grid,
         held_out: &others,
     };
-    json_file::write(files.out.as_deref(), &json_text(&report.fitted, "the weights")?)?;
+    files.write(&report.fitted)?;
     print_result(report.text().trim_end())?;
     Ok(())
 }

@@ -2,7 +2,7 @@
 
 use crate::fit_events::FitEvents;
 use clap::{Args, value_parser};
-use phase_cli::effort::mind_kinds;
+use phase_cli::named::named;
 use phase_minds::MindKind;
 use std::path::PathBuf;
 
@@ -14,7 +14,8 @@ pub struct FitInference {
     pub events: FitEvents,
     /// The weights of one kind of minds alone: `phase`, or `published`, those of the published simulator
     /// [default: both kinds, averaged, as SIMPLE has them]
-    #[arg(long, value_name = "MINDS", hide_possible_values = true, value_parser = mind_kinds())]
+    #[arg(long, value_name = "MINDS", hide_possible_values = true,
+        value_parser = named(MindKind::ALL, MindKind::name))]
     pub minds: Option<MindKind>,
     /// Parts into which the events are divided; each is held out of one fit
     #[arg(long, value_name = "K", default_value_t = 5, value_parser = value_parser!(u16).range(2..=1000))]

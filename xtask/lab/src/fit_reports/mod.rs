@@ -7,9 +7,9 @@
 pub mod options;
 mod regression;
 
-use crate::{error::LabError, folds, json_file};
+use crate::{error::LabError, folds};
 use options::FitReports;
-use phase_cli::output::{json_text, print_result};
+use phase_cli::{json_file, output::print_result};
 use phase_eval::{
     Estimate,
     goals::{Agreement, Protocol, REPORT_TRAINING_FORMAT, RecognisedEvent, ReportTraining},
@@ -40,8 +40,7 @@ struct Details {
 /// Results without impressions or ratings, or a file that cannot be read or written.
 pub fn run(arguments: &FitReports) -> Result<(), LabError> {
     for (option, file) in [("--out", &arguments.out), ("--record", &arguments.record)] {
-        let inputs = core::iter::once(arguments.results.as_path());
-        file.as_ref().map_or(Ok(()), |file| json_file::check(option, file, inputs))?;
+        file.as_ref().map_or(Ok(()), |file| json_file::check(option, file, [&arguments.results]))?;
     }
     let Input { events, rated, sha256 } = read(arguments)?;
     let folds = usize::from(arguments.folds);
@@ -69,7 +68,7 @@ pub fn run(arguments: &FitReports) -> Result<(), LabError> {
     for (event, rated) in in_sample.iter_mut().zip(&rated) {
         event.answer.reported = Some(model.reports(&rated.impression));
     }
-    json_file::write(arguments.out.as_deref(), &json_text(&model, "the model")?)?;
+    arguments.out.as_ref().map_or(Ok(()), |file| json_file::write(file, &model))?;
     let seed = arguments.seed;
     let agreement = |events: &[RecognisedEvent], protocol| {
         Agreement::of(events, seed).map(|agreement| Agreement { protocol, ..agreement })
@@ -87,7 +86,7 @@ pub fn run(arguments: &FitReports) -> Result<(), LabError> {
             in_sample: in_sample.clone(),
             held_out: held_out.clone(),
         };
-        json_file::write(Some(file), &json_text(&record, "the record")?)?;
+        json_file::write(file, &record)?;
     }
     let mut text = format!(
         "{} events with {} ratings; ridge {ridge}, without one fold {}\n\n{:<40} {:>22} {:>22} {:>22} {:>22}\n",

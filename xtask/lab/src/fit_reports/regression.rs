@@ -21,9 +21,6 @@ pub(super) struct Rated {
 
 /// Fits the model to some events. `ridge` is the weight of the sum of squared weights beside the log
 /// likelihood of all raters.
-///
-/// # Errors
-/// That of the library, for example if nobody reported one of the relations.
 pub(super) fn fit(events: &[Rated], ridge: f64) -> Result<ReportModel, Failed> {
     let features: Vec<[f64; REPORT_FEATURES]> =
         events.iter().map(|event| report_features(&event.impression)).collect();

@@ -29,9 +29,6 @@ use std::{
 
 /// A network for goals and relations, with the weights of a file or the bundled ones; `None` if there is none
 /// of this name.
-///
-/// # Errors
-/// If the file cannot be used.
 pub(crate) fn recogniser(
     name: &str,
     weights: Option<&Path>,
@@ -45,9 +42,6 @@ pub(crate) fn recogniser(
 }
 
 /// A network for trajectories; see [`recogniser`].
-///
-/// # Errors
-/// If the file cannot be used.
 pub(crate) fn forecaster(
     name: &str,
     weights: Option<&Path>,
@@ -60,9 +54,6 @@ pub(crate) fn forecaster(
 }
 
 /// The training record of the bundled weights; `None` if there is none of this name.
-///
-/// # Errors
-/// If its record is damaged.
 pub(crate) fn training(name: &str) -> Result<Option<Training>, RunError> {
     let record = match name {
         "intent-network" => IntentNetwork::BUNDLED_RECORD,
@@ -77,9 +68,6 @@ pub(crate) fn training(name: &str) -> Result<Option<Training>, RunError> {
 }
 
 /// The training record beside a file of weights.
-///
-/// # Errors
-/// If there is none or it cannot be used.
 pub(crate) fn training_of(file: &Path) -> Result<Training, RunError> {
     let mut beside = OsString::from(file);
     beside.push(".training.json");

@@ -1,5 +1,6 @@
-//! Inference of an observer about an event while it watches it, for `render --observer`.
+//! Inference of an observer about an event while it watches it, for a video.
 
+use crate::error::RunError;
 use core::ops::ControlFlow;
 use phase_event::{MethodError, Recording};
 use phase_model::{
@@ -7,7 +8,6 @@ use phase_model::{
     words,
 };
 use phase_render::{Caption, Palette};
-use phase_runs::error::RunError;
 use phase_simple::{Inference, Simple};
 use serde::Serialize;
 use std::time::Instant;
@@ -40,9 +40,6 @@ pub(super) struct GoalShare {
 
 /// Watches an event to its end: what SIMPLE says at its first row and after each step. `interrupted` is asked
 /// between steps; if it says so, the result is `None`.
-///
-/// # Errors
-/// If the event cannot be observed or its minds not be simulated.
 pub(super) fn watch(
     recording: &Recording,
     seed: u64,
@@ -149,9 +146,9 @@ impl Watched {
 #[cfg(test)]
 mod tests {
     use super::Watched;
+    use crate::picture::SHEET_SIDE;
     use phase_model::{AgentId, RelationProbabilities, RoleProbabilities};
     use phase_render::{Palette, SizedFont, Style};
-    use phase_runs::picture::SHEET_SIDE;
     use phase_simple::physical_goals;
 
     /// No line is cut off, neither in a video nor in the smaller pictures of a contact sheet.

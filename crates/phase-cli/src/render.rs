@@ -1,13 +1,11 @@
-//! The options of `render`.
+//! `render`: events as videos, or as pictures of their key frames.
 
-use crate::{output::Output, parallel::Jobs};
-use clap::{
-    Args, ValueEnum,
-    builder::{PossibleValuesParser, TypedValueParser},
-    value_parser,
-};
+use crate::{context::Context, error::CliError, interrupt, named::named, output::Output, parallel::Jobs};
+use clap::{Args, ValueEnum, value_parser};
 use phase_model::AgentId;
 use phase_render::PaletteName;
+use phase_runs::render::{Rendered, Rendering, View};
+use serde_json::json;
 use std::path::PathBuf;
 
 /// Options of `render`.
@@ -35,7 +33,8 @@ pub struct Render {
     #[arg(long, value_name = "S", default_value_t = 1, requires = "observer")]
     pub seed: u64,
     /// Colours: as in the paper, or distinguishable with a colour vision deficiency
-    #[arg(long, value_name = "PALETTE", default_value = PaletteName::Paper.name(), value_parser = palettes())]
+    #[arg(long, value_name = "PALETTE", default_value = PaletteName::Paper.name(),
+        value_parser = named(PaletteName::ALL, PaletteName::name))]
     pub palette: PaletteName,
     /// Instead of a video, one picture of N frames, 1 to 100, evenly spaced over the event
     #[arg(long, value_name = "N", value_parser = value_parser!(u16).range(1..=100))]
@@ -62,32 +61,49 @@ pub enum Belief {
     Both,
 }
 
-impl Belief {
-    /// The agents shown, from left to right.
-    #[must_use]
-    pub const fn agents(self) -> &'static [AgentId] {
-        match self {
-            Self::First => &[AgentId::ZERO],
-            Self::Second => &[AgentId::ONE],
-            Self::Both => &AgentId::ALL,
-        }
-    }
-
-    /// The suffix of file names.
-    #[must_use]
-    pub const fn suffix(self) -> &'static str {
-        match self {
-            Self::First => ".belief0",
-            Self::Second => ".belief1",
-            Self::Both => ".belief-both",
+impl Render {
+    fn view(&self) -> View {
+        match self.belief {
+            _ if self.observer => View::Observer(self.seed),
+            None => View::World,
+            Some(Belief::First) => View::Belief(AgentId::ZERO),
+            Some(Belief::Second) => View::Belief(AgentId::ONE),
+            Some(Belief::Both) => View::Beliefs,
         }
     }
 }
 
-/// Reads a palette by its name.
-fn palettes() -> impl TypedValueParser<Value = PaletteName> {
-    let names = PossibleValuesParser::new(PaletteName::ALL.map(PaletteName::name));
-    names.try_map(|name| {
-        PaletteName::ALL.into_iter().find(|palette| palette.name() == name).ok_or("no such palette")
-    })
+/// Runs the command.
+///
+/// # Errors
+/// Any [`CliError`].
+pub fn run(arguments: &Render, context: &Context) -> Result<(), CliError> {
+    let rendering = Rendering {
+        events: arguments.file.clone(),
+        ids: arguments.id.clone(),
+        out: arguments.out.clone(),
+        view: arguments.view(),
+        palette: arguments.palette,
+        contact_sheet: arguments.contact_sheet.map(usize::from),
+        threads: arguments.jobs.given(),
+    };
+    interrupt::listen();
+    let made = rendering.run(context)?;
+    let lines = made.iter().map(line).collect::<String>();
+    arguments.output.print(lines, &json!({ "files": made }))
+}
+
+fn line(made: &Rendered) -> String {
+    let note = if made.interpolated { " (frames interpolated between recorded steps)" } else { "" };
+    let mut lines = format!("{}{note}\n", made.file.display());
+    if let Some(observer) = &made.observer {
+        let ms = |seconds: f64| 1000.0 * seconds;
+        lines += &format!(
+            "{} ({:.0} ms a step, {:.0} ms the slowest)\n",
+            observer.file.display(),
+            ms(observer.mean_step_seconds),
+            ms(observer.slowest_step_seconds)
+        );
+    }
+    lines
 }

@@ -1,7 +1,7 @@
-//! Attempts that run ahead on idle threads leave no trace in a dataset.
+//! Threads and kills leave no trace in a dataset.
 #![cfg(unix)]
 
-use crate::support::{phase, run, text, tree};
+use crate::support::{phase, succeed, tree};
 use std::{
     fs,
     io::{BufRead, BufReader},
@@ -50,16 +50,6 @@ fn generate<'a>(out: &'a str, jobs: &'a str) -> Vec<&'a str> {
     [&options[..], &["--verbose", "--out", out, "--jobs", jobs]].concat()
 }
 
-/// Makes the dataset with this number of threads; returns how many attempts ran ahead in vain.
-fn made(path: &Path, out: &str, jobs: &str) -> usize {
-    let output = run(path, &generate(out, jobs));
-    let told = text(&output.stderr);
-    assert!(output.status.success(), "{told}");
-    let dropped =
-        told.lines().find_map(|line| line.strip_prefix("attempts begun ahead that did not count: "));
-    dropped.expect("a line").parse().expect("a number")
-}
-
 /// Stops a run with four threads after so many of its lines.
 fn killed(path: &Path, out: &str, lines: usize) {
     let mut child =
@@ -88,13 +78,11 @@ fn check(preset: &str) {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path();
     fs::write(path.join("preset.json"), preset).expect("written");
-    assert_eq!(made(path, "one", "1"), 0, "one thread has none to spare");
+    succeed(path, &generate("one", "1"));
     let one = tree(&path.join("one"));
     assert!(one.contains_key(Path::new("manifest.json")));
-    let dropped: usize = ["2", "4"].into_iter().map(|jobs| made(path, jobs, jobs)).sum();
-    assert!(dropped > 0, "nothing ran ahead");
-    assert!(tree(&path.join("2")) == one, "two threads differ from one");
-    assert!(tree(&path.join("4")) == one, "four threads differ from one");
+    succeed(path, &generate("four", "4"));
+    assert!(tree(&path.join("four")) == one, "four threads differ from one");
     let total = |out: &str| records(&path.join(out)).iter().map(|(_, refused)| refused).sum::<usize>();
     let all = one[Path::new("manifest.json")].clone();
     let all: serde_json::Value = serde_json::from_slice(&all).expect("JSON");
@@ -105,7 +93,7 @@ fn check(preset: &str) {
         let out = format!("killed{lines}");
         killed(path, &out, lines);
         assert!(total(&out) <= all, "attempts that do not count were recorded");
-        made(path, &out, if lines == 3 { "1" } else { "3" });
+        succeed(path, &generate(&out, if lines == 3 { "1" } else { "3" }));
         assert!(tree(&path.join(&out)) == one, "the run killed after {lines} lines differs");
     }
 }
