@@ -39,6 +39,9 @@ def test_minari_loads_both_agents(event, tmp_path, monkeypatch):
         export([event], "phase/test-v0")
     with pytest.raises(phase.PhaseError):
         export([event], "phase/none")
+    # Minari would keep them as .jpg, from which an episode could not be played again bit for bit.
+    with pytest.raises(phase.PhaseError, match="observation must be one of view, state, not 'image'"):
+        export([event], "phase/pictures-v0", observation="image")
 
 
 @pytest.mark.filterwarnings("ignore:.*eval_env.*:UserWarning")

@@ -6,7 +6,8 @@
 //! searches are computed in the same way for both.
 //!
 //! Whoever wants to choose the actions, for example to train a learner, plays an [`Episode`] step by step: it
-//! has rewards and observations, these also as vectors of numbers ([`vector`]).
+//! has rewards, [`Distances`] to go, and observations, these also as vectors of numbers ([`vector`]). A copy
+//! of it is a place to go back to.
 //!
 //! Key design decision: every random stream belongs to one agent and one purpose. The same seed reproduces
 //! the same event bit for bit, and an agent's beliefs can be recomputed from the recorded trajectory without

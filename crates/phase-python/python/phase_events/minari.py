@@ -10,7 +10,7 @@ from minari.data_collector import EpisodeBuffer
 
 from ._check import choice, text, whole
 from ._native import ACTIONS, PhaseError
-from .env import VIEWS, PhaseEnv, PhaseParallelEnv
+from .env import VECTORS, PhaseEnv, PhaseParallelEnv
 from .events import _list
 from .policies import ReplayPolicy
 
@@ -22,7 +22,7 @@ def export(events, dataset_id, *, observation="view"):
         events: simulated events of one engine; their actions are replayed in it.
         dataset_id: name and version, such as ``phase/demo-v0``; the datasets are ``phase/demo-agent0-v0`` and ``phase/demo-agent1-v0``,
             in Minari's folder (``MINARI_DATASETS_PATH``).
-        observation: as of :class:`~phase_events.env.PhaseParallelEnv`.
+        observation: ``view``, what the agent sees and feels, or ``state``, everything. Minari keeps pictures with losses, so there are none.
 
     Returns:
         both datasets, as ``minari.load_dataset`` loads them. Every episode has the event's id, kind, relation and scene, and the
@@ -42,7 +42,7 @@ def export(events, dataset_id, *, observation="view"):
     present = [one for one in ids if one in minari.list_local_datasets()]
     if present:
         raise PhaseError(f"dataset_id: there is a dataset {present[0]} already")
-    choice("observation", observation, VIEWS)
+    choice("observation", observation, VECTORS)
     engines = {_engine(event) for event in events}
     if len(engines) > 1:
         raise PhaseError(f"the events are of several engines, {' and '.join(sorted(engines))}; export those of each by themselves")
