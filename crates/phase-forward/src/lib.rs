@@ -92,6 +92,7 @@
 #![deny(missing_docs)]
 
 mod body;
+mod box2d;
 mod clip;
 mod coarse;
 mod collide;
@@ -102,7 +103,6 @@ mod continuous;
 mod exertion;
 mod finish;
 mod forward;
-mod grasp;
 mod group;
 mod imagined;
 mod key;
@@ -113,7 +113,6 @@ mod outline;
 mod polygon;
 mod reach;
 mod released;
-mod rod;
 mod solver_cache;
 mod substep;
 mod time_of_impact;

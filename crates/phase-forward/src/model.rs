@@ -18,8 +18,6 @@ pub(crate) struct Model {
     pub(crate) wall_count: usize,
     pub(crate) boxes: WallBoxes,
     pub(crate) count: usize,
-    /// Whether this is the published planner's idea of the dynamics.
-    pub(crate) imagined: bool,
     /// Whether bodies collide with each other, and not with walls alone.
     pub(crate) collisions: bool,
 }
@@ -37,16 +35,7 @@ impl Model {
         let (walls, wall_count) = walls(&physics.walls);
         let count = physics.entity_count().min(4);
         let boxes = WallBoxes::new(&walls[..wall_count]);
-        Self {
-            physics: physics.clone(),
-            shapes,
-            walls,
-            wall_count,
-            boxes,
-            count,
-            imagined: false,
-            collisions: true,
-        }
+        Self { physics: physics.clone(), shapes, walls, wall_count, boxes, count, collisions: true }
     }
 
     /// Those of some pairs of shapes whose contacts are resisted.

@@ -4,9 +4,7 @@ use crate::{
     body::{STATIC, Twist},
     constants::{BAUMGARTE, H, IMPULSE_TOLERANCE, LINEAR_SLOP, POSITION_ITERATIONS},
     contact::Contact,
-    grasp::Grasp,
     key::BodyMask,
-    rod::Rod,
     touching::{ContactSet, MAX_CONTACTS},
     weld::Weld,
     world::World,
@@ -19,7 +17,7 @@ type Joint = u8;
 impl World<'_> {
     /// Applies forces and solves all given bodies, group by group.
     pub(crate) fn solve(&mut self, reachable_bodies: BodyMask, touching: &mut ContactSet) {
-        let mut grasps: [Option<Grasp>; AGENT_COUNT] = [None; AGENT_COUNT];
+        let mut grasps: [Option<Weld>; AGENT_COUNT] = [None; AGENT_COUNT];
         // Bodies that lean on walls, and bodies that are connected with others.
         let mut leaning: BodyMask = 0;
         let mut linked: BodyMask = 0;
@@ -27,10 +25,7 @@ impl World<'_> {
             if let (Some(grip), Some(held)) = (&self.grips[agent], self.held(agent)) {
                 linked |= 1 << agent | 1 << held;
                 let impulse = self.impulses.grasps[agent];
-                *grasp = Some(match self.rest_lengths[agent] {
-                    Some(length) => Grasp::Rod(Rod::new(agent, grip, length, impulse.0.x)),
-                    None => Grasp::Weld(Weld::new(agent, grip, &self.model.shapes, impulse)),
-                });
+                *grasp = Some(Weld::new(agent, grip, &self.model.shapes, impulse));
             }
         }
         for contact in touching.current() {
@@ -71,7 +66,7 @@ impl World<'_> {
         }
         for (impulse, grasp) in self.impulses.grasps.iter_mut().zip(&grasps) {
             if let Some(grasp) = grasp {
-                *impulse = grasp.impulse();
+                *impulse = grasp.impulse;
             }
         }
         for body in 0..self.model.count {
@@ -94,7 +89,7 @@ impl World<'_> {
         &self,
         seed: usize,
         contacts: &[Contact],
-        grasps: &[Option<Grasp>; AGENT_COUNT],
+        grasps: &[Option<Weld>; AGENT_COUNT],
         done: &mut BodyMask,
     ) -> Island {
         let mut island = Island::EMPTY;
@@ -132,12 +127,12 @@ impl World<'_> {
             };
             for agent in [self.latest_grip, 1 - self.latest_grip] {
                 if let Some(grasp) = &grasps[agent] {
-                    if grasp.agent() == body {
+                    if grasp.agent == body {
                         join(4 + agent as u8);
-                        reach(grasp.object());
-                    } else if grasp.object() == body {
+                        reach(grasp.object);
+                    } else if grasp.object == body {
                         join(4 + agent as u8);
-                        reach(grasp.agent());
+                        reach(grasp.agent);
                     }
                 }
             }
@@ -187,7 +182,7 @@ impl World<'_> {
         &mut self,
         island: &Island,
         all: &mut [Contact; MAX_CONTACTS],
-        grasps: &mut [Option<Grasp>; AGENT_COUNT],
+        grasps: &mut [Option<Weld>; AGENT_COUNT],
     ) {
         let shapes = &self.model.shapes;
         let motions = &mut self.motions;

@@ -39,8 +39,6 @@ pub(crate) struct World<'a> {
     /// For each body, the walls that it can reach in this step.
     pub(crate) walls: [WallSet; 4],
     pub(crate) grips: [Option<Grip>; AGENT_COUNT],
-    /// Rest lengths of those grips that are springs (u): in an imagined step, those held from its start.
-    pub(crate) rest_lengths: [Option<f32>; AGENT_COUNT],
     /// The agent that grabbed last; its weld comes first.
     pub(crate) latest_grip: usize,
     pub(crate) actions: [Action; AGENT_COUNT],
@@ -74,14 +72,8 @@ impl<'a> World<'a> {
         }
         let angles = motions.map(|motion| motion.angle);
         let grips = [0, 1].map(|agent| Some(sanitized_grip(state.grips[agent]?, agent, &angles)));
-        let rest_length = |agent: usize| {
-            let held = held_body(grips[agent].as_ref()?);
-            let origin = motions[agent].place(Vec2::new(0.0, model.shapes[agent].origin));
-            (model.imagined && held < model.count).then(|| origin.distance(motions[held].centre))
-        };
         Self {
             model,
-            rest_lengths: [rest_length(0), rest_length(1)],
             motions,
             starts: [(Vec2::ZERO, 0.0, Vec2::X); 4],
             outlines: Outlines::NONE,
@@ -108,14 +100,10 @@ impl<'a> World<'a> {
         (body < self.model.count).then_some(body)
     }
 
-    /// Distance between a held object and where its agent holds it (u); springs are at rest at the start of a
-    /// step.
+    /// Distance between a held object and where its agent holds it (u).
     pub(crate) fn joint_error(&self, agent: usize) -> Option<f32> {
         let grip = self.grips[agent].as_ref()?;
         let held = self.held(agent)?;
-        if self.rest_lengths[agent].is_some() {
-            return Some(0.0);
-        }
         let shape = &self.model.shapes[agent];
         let holder = &self.motions[agent];
         let reach = grip.side.direction() * (shape.radius + self.model.shapes[held].radius);
@@ -225,7 +213,7 @@ fn is_sane(body: &Body) -> bool {
 }
 
 /// The body with invalid values replaced: 0 for non-finite ones, the closest bound for those out of range.
-fn sanitized(body: Body) -> Body {
+pub(crate) fn sanitized(body: Body) -> Body {
     let number = |x: f32, most: f32| if x.is_nan() { 0.0 } else { x.clamp(-most, most) };
     Body {
         position: Vec2::new(

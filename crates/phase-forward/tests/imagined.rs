@@ -112,7 +112,7 @@ fn reach_is_measured_to_stated_places() {
     imagined.step(&mut out_of_reach, attach);
     assert_eq!(out_of_reach.grips[0], None);
     let far = state.position(BALL);
-    imagined.step_reaching(&mut state, attach, [near, Vec2::ZERO]);
+    imagined.step_reaching(AgentId::ZERO, &mut state, attach, [near, Vec2::ZERO]);
     assert!(state.grips[0].is_some() && state.position(BALL).distance(far) > 1.0);
 }
 

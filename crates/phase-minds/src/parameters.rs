@@ -239,6 +239,17 @@ impl MindParameters {
         self
     }
 
+    /// These parameters for published minds that search as the original does, once a decision and with as
+    /// many simulations. Only then do its random numbers repeat what it did. Other minds stay as they are.
+    #[must_use]
+    pub fn searching_as_original(mut self) -> Self {
+        if let Self::Published(parameters) = &mut self {
+            let PublishedParameters { simulations, searches, .. } = PublishedParameters::default();
+            (parameters.simulations, parameters.searches) = (simulations, searches);
+        }
+        self
+    }
+
     /// These parameters for a mind that searches once a decision, as one that acts does.
     #[must_use]
     pub const fn searching_once(mut self) -> Self {

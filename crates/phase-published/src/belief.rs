@@ -10,8 +10,7 @@ use crate::{
 use phase_belief::overwrite;
 use phase_forward::Imagined;
 use phase_model::{
-    AGENT_COUNT, Action, AgentId, Body, Dynamics, Entity, Flip, Layout, MAX_ENTITIES, PhysicsConfig, State,
-    Vec2, arena,
+    AGENT_COUNT, Action, AgentId, Body, Entity, Flip, Layout, MAX_ENTITIES, PhysicsConfig, State, Vec2, arena,
 };
 use phase_perception::{CellSet, Observation};
 use rand::{Rng, RngExt};
@@ -95,7 +94,8 @@ impl Belief {
         let blind = self.physics.entities().any(|entity| !observation.observed.contains(entity));
         for particle in &mut self.particles {
             if blind {
-                self.imagined.step(particle, actions);
+                let at = [2, 3].map(|body: usize| particle.bodies[body].position);
+                self.imagined.step_reaching(self.agent, particle, actions, at);
             }
             overwrite(particle, observation);
             if blind {

@@ -9,9 +9,9 @@
 //! its agents do; a recording is explained best by the mind that made it. The trade-off is a mind that nobody
 //! would build on purpose.
 //!
-//! Senses, rules, rewards, selection, belief updates and imagined steps are compared with outputs of the
-//! original (tests/oracle). Its random numbers can be had ([`RandomNumbers::Original`]), and its decisions
-//! repeat with them.
+//! Senses, rules, rewards, selection, belief updates, imagined steps and searches are compared with outputs
+//! of the original (tests/oracle). Its random numbers can be had ([`RandomNumbers::Original`]), and with them
+//! its decisions repeat: same visits of every action, same values.
 //!
 //! Differences from the original that are meant:
 //!

@@ -202,6 +202,6 @@ impl Tree<'_> {
     fn step(&self, state: &mut State, own: Action, others: Action) {
         let mut actions = [others; AGENT_COUNT];
         actions[self.task.agent] = own;
-        self.task.imagined.step_reaching(state, actions, self.objects_at);
+        self.task.imagined.step_reaching(self.task.agent, state, actions, self.objects_at);
     }
 }

@@ -1,14 +1,9 @@
-//! Imagined steps.
+//! Imagined steps, bit for bit.
 
 use crate::cases::{Tally, action, cases, list, name, physics, real, state, text, whole};
 use phase_forward::Imagined;
-use phase_model::{Action, Vec2};
+use phase_model::{Action, AgentId, Vec2};
 use std::collections::BTreeMap;
-
-/// Greatest difference of a position (u).
-const TOLERANCE: f32 = 0.002;
-/// Share of the steps that may differ by more.
-const ALLOWED: f64 = 0.005;
 
 #[test]
 fn imagined_steps_are_the_originals() {
@@ -32,7 +27,7 @@ fn imagined_steps_are_the_originals() {
                 let place = &case["root_items"][k];
                 Vec2::new(real(&place[0]) as f32, real(&place[1]) as f32)
             });
-            forward.step_reaching(&mut after, actions, at);
+            forward.step_reaching(AgentId::ALL[own], &mut after, actions, at);
             let theirs = state(&it[3]["bodies"], &it[3]["grips"]);
             let error = |k: usize| (after.bodies[k].position - theirs.bodies[k].position).length();
             let worst = (0..4).map(error).fold(0.0, f32::max);
@@ -41,8 +36,8 @@ fn imagined_steps_are_the_originals() {
                 let each: Vec<f32> = (0..4).map(error).collect();
                 format!("{}, agent {own} {} {}: {each:?}, grips {}", name(case), it[1], it[2], it[3]["grips"])
             };
-            places.add(worst <= TOLERANCE, what);
-            by_action.entry(text(&it[1]).to_owned()).or_default().add(worst <= TOLERANCE, String::new);
+            places.add(worst == 0.0, what);
+            by_action.entry(text(&it[1]).to_owned()).or_default().add(worst == 0.0, String::new);
             let held = |state: &phase_model::State| state.grips.map(|grip| grip.map(|grip| grip.object));
             grips.add(held(&after) == held(&theirs), what);
         }
@@ -56,6 +51,7 @@ fn imagined_steps_are_the_originals() {
     for (action, tally) in &by_action {
         println!("{action}: {tally}");
     }
-    assert!(places.different as f64 <= ALLOWED * places.total() as f64);
-    assert_eq!(grips.different, 0);
+    for tally in [places, grips] {
+        assert_eq!(tally.different, 0);
+    }
 }

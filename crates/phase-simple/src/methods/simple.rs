@@ -86,7 +86,7 @@ impl Simple {
 
     /// SIMPLE with minds of one kind in all its simulations, or the kind that it has if none is given.
     /// `recorder` adds defects to their bodies, and `original_random` gives published minds the random
-    /// numbers of the original.
+    /// numbers of the original, and its number of simulations.
     #[must_use]
     pub fn with_minds(mut self, kind: Option<MindKind>, recorder: Recorder, original_random: bool) -> Self {
         if let Some(kind) = kind {
@@ -100,12 +100,18 @@ impl Simple {
                 self.settings = self.settings.without_collisions();
             }
         }
+        let record = |agents: &mut ImaginedAgents| {
+            agents.minds = agents.minds.as_recorded(original_random, agents.strongest_coasts);
+            if original_random {
+                agents.minds = agents.minds.searching_as_original();
+            }
+        };
         let agents = &mut self.settings.agents;
         agents.one_way_turns |= recorder.one_way_turns;
         agents.strongest_coasts |= recorder.strongest_coasts;
-        agents.minds = agents.minds.as_recorded(original_random, agents.strongest_coasts);
+        record(agents);
         if let Some(AlternativeAgents { agents, .. }) = &mut self.settings.alternative {
-            agents.minds = agents.minds.as_recorded(original_random, agents.strongest_coasts);
+            record(agents);
         }
         self
     }
