@@ -15,6 +15,8 @@ pub(crate) const CROSSING_PASSES: usize = 3;
 pub(crate) const RING: usize = 16;
 /// Distance of these points from the obstacle (u), beyond rounding.
 pub(crate) const RING_GAP: f32 = 0.01;
+/// Tolerance of the distance between a body and a wall (u); more than the rounding of a leg.
+pub(crate) const CLEARANCE_TOLERANCE: f32 = 1e-3;
 /// Rotation along a descent below which it is a matter of rounding, in steps of the grid.
 pub(crate) const LEAST_TURN: f32 = 0.5;
 /// Least width of a bucket of the queue (u).

@@ -16,6 +16,9 @@
 //! [`AssemblyField`] holds its cost to go on a grid of positions (0.5 u) and orientations (22.5°): a few
 //! milliseconds each, once for a grip and a target.
 //!
+//! A map is one of the layouts of PHASE. A [`Floor`] has any size and any walls, and a [`FloorField`] the
+//! travel distances on it to a point or a room.
+//!
 //! [`Navigator`] computes fields on demand and caches them. All functions are pure: equal arguments give
 //! equal bits.
 //!
@@ -47,7 +50,9 @@ mod assembly_field;
 mod buckets;
 mod cache;
 mod field;
+mod floor;
 mod gaps;
+mod graph;
 mod lattice;
 mod map;
 mod navigator;
@@ -61,6 +66,7 @@ mod ways;
 pub use assembly::Assembly;
 pub use assembly_field::{AssemblyField, Descent};
 pub use field::Field;
+pub use floor::{Area, Floor, FloorError, FloorField};
 pub use gaps::Gaps;
 pub use map::Map;
 pub use navigator::Navigator;

@@ -77,15 +77,22 @@ fn around_corner(bends: &mut Vec<Bend>, corner: &Corner) {
 
 /// A ring around an obstacle, without the points where the mover would not fit between obstacle and wall.
 fn around_obstacle(bends: &mut Vec<Bend>, map: &Map, obstacle: Disc, mover: Mover) {
-    let radius = obstacle.radius * RING_RATIO + RING_GAP;
     let inset = Vec2::splat(mover.half_width);
-    let mut direction = Vec2::X;
-    for _ in 0..RING {
-        let point = obstacle.centre + direction * radius;
+    for point in ring(obstacle) {
         let is_inside = arena::contains(point - inset) && arena::contains(point + inset);
         if is_inside && map.walls().iter().all(|wall| wall.distance(point) >= mover.half_width) {
             push(bends, point);
         }
-        direction = RING_TURN.rotate(direction);
     }
+}
+
+/// The points around a disc at which paths bend; the straight legs between neighbours do not cross it.
+pub(crate) fn ring(disc: Disc) -> impl Iterator<Item = Vec2> {
+    let radius = disc.radius * RING_RATIO + RING_GAP;
+    let mut direction = Vec2::X;
+    (0..RING).map(move |_| {
+        let point = disc.centre + direction * radius;
+        direction = RING_TURN.rotate(direction);
+        point
+    })
 }
