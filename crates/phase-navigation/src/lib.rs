@@ -29,16 +29,19 @@
 //! use phase_model::{Layout, Vec2};
 //! use phase_navigation::{Field, Map, Mover, NavigationParameters, Target};
 //!
-//! let map = Map::new(Layout::new(4, None)?);
-//! let above = Vec2::new(7.25, 16.0);
-//! let below = Vec2::new(7.25, 6.0);
-//! let parameters = NavigationParameters { impassable: 10.0, ..NavigationParameters::DEFAULT };
-//! let field = |half_width| Field::new(&map, Target::Point(below), Mover { half_width }, &[], parameters);
+//! fn main() -> Result<(), phase_model::LayoutError> {
+//!     let map = Map::new(Layout::new(4, None)?);
+//!     let above = Vec2::new(7.25, 16.0);
+//!     let below = Vec2::new(7.25, 6.0);
+//!     let parameters = NavigationParameters { impassable: 10.0, ..NavigationParameters::DEFAULT };
+//!     let field = |half_width| Field::new(&map, Target::Point(below), Mover { half_width }, &[], parameters);
 //!
-//! assert!((field(1.2).distance(above) - 10.0).abs() < 1e-3);
-//! assert!(field(1.2).direction(above).y < -0.99);
-//! assert!(field(1.8).distance(above) > 15.0);
-//! # Ok::<(), phase_model::LayoutError>(())
+//!     println!("{} u and {} u", field(1.2).distance(above), field(1.8).distance(above));
+//!     assert!((field(1.2).distance(above) - 10.0).abs() < 1e-3);
+//!     assert!(field(1.2).direction(above).y < -0.99);
+//!     assert!(field(1.8).distance(above) > 15.0);
+//!     Ok(())
+//! }
 //! ```
 
 #![forbid(unsafe_code)]

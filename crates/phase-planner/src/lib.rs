@@ -24,21 +24,24 @@
 //! };
 //! use phase_planner::Planner;
 //!
-//! let layout = Layout::new(2, None)?;
-//! let body = AgentBody { radius: 0.8, max_force: 450.0 };
-//! let physics =
-//!     PhysicsConfig { walls: layout.walls(), agents: [body; 2], object_radii: [0.0; 2], object_count: 0 };
-//! let places = [Vec2::new(8.0, 18.0), Vec2::new(24.0, 8.0), Vec2::ZERO, Vec2::ZERO];
-//! let state = State::new(places.map(|place| Body::at_rest(place, 0.0)));
-//! let goals = [(AgentId::ZERO, LandmarkId::TOP_RIGHT), (AgentId::ONE, LandmarkId::TOP_LEFT)]
-//!     .map(|(agent, landmark)| Goal::AgentOnLandmark { agent, landmark, sign: Sign::Positive });
-//! let planner = Planner::new(physics, layout, AgentId::ZERO, goals, Attitude::Neutral);
-//! let plan = planner.plan(&state, BodySet::EMPTY);
-//! let words: Vec<String> = plan.subgoals.iter().map(|subgoal| subgoal.to_string()).collect();
-//! assert_eq!(words[0], "Close(agent 0, landmark 3)"); // the next room on the way
-//! assert_eq!(words[3], "On(agent 0, landmark 1)");
-//! assert!(plan.distance > 16.0); // longer than the straight line
-//! # Ok::<(), phase_model::LayoutError>(())
+//! fn main() -> Result<(), phase_model::LayoutError> {
+//!     let layout = Layout::new(2, None)?;
+//!     let body = AgentBody { radius: 0.8, max_force: 450.0 };
+//!     let physics =
+//!         PhysicsConfig { walls: layout.walls(), agents: [body; 2], object_radii: [0.0; 2], object_count: 0 };
+//!     let places = [Vec2::new(8.0, 18.0), Vec2::new(24.0, 8.0), Vec2::ZERO, Vec2::ZERO];
+//!     let state = State::new(places.map(|place| Body::at_rest(place, 0.0)));
+//!     let goals = [(AgentId::ZERO, LandmarkId::TOP_RIGHT), (AgentId::ONE, LandmarkId::TOP_LEFT)]
+//!         .map(|(agent, landmark)| Goal::AgentOnLandmark { agent, landmark, sign: Sign::Positive });
+//!     let planner = Planner::new(physics, layout, AgentId::ZERO, goals, Attitude::Neutral);
+//!     let plan = planner.plan(&state, BodySet::EMPTY);
+//!     let words: Vec<String> = plan.subgoals.iter().map(|subgoal| subgoal.to_string()).collect();
+//!     println!("{}", words.join(", "));
+//!     assert_eq!(words[0], "Close(agent 0, landmark 3)"); // the next room on the way
+//!     assert_eq!(words[3], "On(agent 0, landmark 1)");
+//!     assert!(plan.distance > 16.0); // longer than the straight line
+//!     Ok(())
+//! }
 //! ```
 
 #![forbid(unsafe_code)]

@@ -4,7 +4,7 @@
 //! that implements [`SymbolicProblem`] is solved in the same way. The examples `blocks` and `logistics` state
 //! two classic domains.
 
-use crate::accuracy::{COST_RESOLUTION, HIGHEST_COST};
+use crate::accuracy::{COST_RESOLUTION, HIGHEST_BOUND, HIGHEST_COST};
 use std::hash::Hash;
 
 /// A symbolic planning problem: states, operators with costs, a goal, and a lower bound on what is left.
@@ -65,8 +65,8 @@ pub trait SymbolicProblem {
     /// A lower bound on the cost from a state to the nearest goal state.
     ///
     /// The plan that is found is the cheapest if the bound is never too high; 0, the default, always is a
-    /// lower bound and makes A* Dijkstra's algorithm. No state is expanded twice if the bound is *consistent*
-    /// too: no operator lowers it by more than the operator costs.
+    /// lower bound and makes A* Dijkstra's algorithm. Infinity says that no goal can be reached. No state is
+    /// expanded twice if the bound is *consistent* too: no operator lowers it by more than the operator costs.
     fn heuristic(&self, _state: &Self::State) -> f32 {
         0.0
     }
@@ -104,7 +104,7 @@ pub fn solve<P: SymbolicProblem>(
     let (mut states, cost) = pathfinding::prelude::astar(
         &start,
         after,
-        |state| (problem.heuristic(state) * COST_RESOLUTION) as u32,
+        |state| ((problem.heuristic(state) * COST_RESOLUTION) as u64).min(HIGHEST_BOUND),
         |state| problem.is_goal(state),
     )?;
     let operators: Vec<P::Operator> = states
@@ -127,6 +127,6 @@ pub fn solve<P: SymbolicProblem>(
 }
 
 /// A cost in A*'s units, rounded up so that a lower bound remains one. NaN counts as 0.
-fn quantise(cost: f32) -> u32 {
-    libm::ceilf(cost.clamp(0.0, HIGHEST_COST) * COST_RESOLUTION) as u32
+fn quantise(cost: f32) -> u64 {
+    libm::ceilf(cost.clamp(0.0, HIGHEST_COST) * COST_RESOLUTION) as u64
 }

@@ -76,3 +76,31 @@ proptest! {
         prop_assert!(problem.is_goal(&plan.end));
     }
 }
+
+/// Cells in a row; a step costs a million, and from cell 100 on no goal is reached.
+struct Row;
+
+impl SymbolicProblem for Row {
+    type State = u32;
+    type Operator = ();
+
+    fn successors(&self, cell: &u32) -> impl IntoIterator<Item = ((), u32, f32)> {
+        [((), cell + 1, 1e6), ((), 100, 0.0)].into_iter().filter(|_| *cell < 100)
+    }
+
+    fn is_goal(&self, cell: &u32) -> bool {
+        *cell == 30
+    }
+
+    fn heuristic(&self, cell: &u32) -> f32 {
+        if *cell < 100 { 0.0 } else { f32::INFINITY }
+    }
+}
+
+#[test]
+fn large_costs_and_infinite_bounds_add_up() {
+    let plan = solve(&Row, 0).expect("a plan");
+    assert_eq!((plan.cost, plan.steps.len()), (3e7, 30));
+    assert_eq!(solve(&Row, 100), None);
+    assert_eq!(solve(&Row, 31), None);
+}

@@ -28,13 +28,16 @@
 //!     }
 //! }
 //!
-//! let mut random = rand_pcg::Pcg32::seed_from_u64(1);
-//! let mut pomcp = Pomcp::new(PomcpSettings::default())?;
-//! let unsure = pomcp.search(&Cups, &[0, 1], &mut random)?;
-//! assert_eq!(unsure.action, 2); // peek: −0.1 + 0.95 × 1 beats a guess's 0.5
-//! assert!(unsure.actions[2].value > unsure.actions[0].value); // and that is why
-//! assert_eq!(pomcp.search(&Cups, &[1], &mut random)?.action, 1); // who knows does not peek
-//! # Ok::<(), phase_pomcp::PomcpError>(())
+//! fn main() -> Result<(), phase_pomcp::PomcpError> {
+//!     let mut random = rand_pcg::Pcg32::seed_from_u64(1);
+//!     let mut pomcp = Pomcp::new(PomcpSettings::default())?;
+//!     let unsure = pomcp.search(&Cups, &[0, 1], &mut random)?;
+//!     println!("{}", pomcp.view(2, 50)); // two levels of the tree
+//!     assert_eq!(unsure.action, 2); // peek: −0.1 + 0.95 × 1 beats a guess's 0.5
+//!     assert!(unsure.actions[2].value > unsure.actions[0].value); // and that is why
+//!     assert_eq!(pomcp.search(&Cups, &[1], &mut random)?.action, 1); // who knows does not peek
+//!     Ok(())
+//! }
 //! ```
 //!
 //! A generator is any of `rand` 0.10, here `rand_pcg`'s. `examples/tiger.rs` goes on to whole episodes, with

@@ -3,6 +3,7 @@
 mod commands;
 mod documents;
 mod packages;
+mod readmes;
 mod results;
 // Also used by the tests that follow documents.
 #[path = "../../../crates/phase-cli/tests/cli/shell.rs"]

@@ -7,8 +7,6 @@ use rand_pcg::Pcg64Mcg;
 use rayon::prelude::*;
 use std::{error::Error, time::Instant};
 
-/// Particles of a belief.
-const PARTICLES: usize = 1000;
 /// Steps after which an episode is cut: at a discount of 0.95 what is left has a weight of 0.6 %.
 const LONGEST_EPISODE: usize = 100;
 /// Standard errors on either side of the mean in an interval of 95 %.
@@ -58,6 +56,10 @@ pub(crate) struct RowSettings {
     pub(crate) seed: u64,
     /// Whether a search goes on in the part of the tree that the last step led to.
     pub(crate) reuse: bool,
+    /// The exploration rate; `None` for the problem's own.
+    pub(crate) exploration: Option<f64>,
+    /// Particles of a belief.
+    pub(crate) particles: usize,
 }
 
 /// A row of the table.
@@ -110,10 +112,11 @@ impl RowSettings {
         problem: &P,
         random: &mut Pcg64Mcg,
     ) -> Result<Episode, Box<dyn Error + Send + Sync>> {
-        let settings = PomcpSettings { simulations: self.simulations, ..P::SETTINGS };
+        let c_init = self.exploration.unwrap_or(P::SETTINGS.c_init);
+        let settings = PomcpSettings { simulations: self.simulations, c_init, ..P::SETTINGS };
         let mut pomcp = Pomcp::new(settings)?;
         let mut state = problem.start(random);
-        let particles = (0..PARTICLES).map(|_| problem.imagine(&state, random)).collect();
+        let particles = (0..self.particles).map(|_| problem.imagine(&state, random)).collect();
         let mut belief = ParticleBelief::new(particles)?;
         let mut episode = Episode { earned: 0.0, simulations: 0, seconds: 0.0, steps: 0 };
         let mut weight = 1.0;

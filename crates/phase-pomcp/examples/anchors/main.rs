@@ -4,7 +4,7 @@
 //! cargo run --release -p phase-pomcp --example anchors -- rocksample-15-15 --simulations 1024,4096
 //! ```
 //!
-//! docs/explanation/planners.md has the results beside published ones. Episodes are spread over all threads;
+//! docs/how-to/planning.md has the results beside published ones. Episodes are spread over all threads;
 //! episode k has seed `--seed` + k in every row, so that all rows share the start states, and results do not
 //! depend on the number of threads.
 
@@ -39,6 +39,12 @@ struct Arguments {
     /// Let each search go on in the part of the tree that the last step led to.
     #[arg(long)]
     reuse: bool,
+    /// The exploration rate `c_init` of the searches, in place of the problem's own.
+    #[arg(long)]
+    exploration: Option<f64>,
+    /// Particles of a belief.
+    #[arg(long, default_value_t = 1000)]
+    particles: usize,
     /// Print one JSON object instead of a table.
     #[arg(long)]
     json: bool,
@@ -80,6 +86,8 @@ fn main() -> Result<(), Box<dyn Error + Send + Sync>> {
             episodes: arguments.episodes,
             seed: arguments.seed,
             reuse: arguments.reuse,
+            exploration: arguments.exploration,
+            particles: arguments.particles,
         };
         let row = row(arguments.problem, &settings)?;
         if !arguments.json {
@@ -101,9 +109,10 @@ fn main() -> Result<(), Box<dyn Error + Send + Sync>> {
                 })
             })
             .collect();
-        let Arguments { episodes, seed, reuse, .. } = arguments;
+        let Arguments { episodes, seed, reuse, exploration, particles, .. } = arguments;
         let printed = json!({
-            "problem": name, "episodes": episodes, "seed": seed, "reuse": reuse, "rows": rows,
+            "problem": name, "episodes": episodes, "seed": seed, "reuse": reuse,
+            "exploration": exploration, "particles": particles, "rows": rows,
         });
         println!("{printed}");
     }
