@@ -159,8 +159,8 @@ impl From<Vec2> for Area {
 
 /// Travel distances of a round body to an area of a [`Floor`].
 ///
-/// As in a [`Field`](crate::Field) paths are straight legs between a few points, here those around the ends of
-/// walls, found by Dijkstra's algorithm on the visibility graph. No path brings the body's centre nearer to a
+/// Paths are straight legs between points around the ends of walls, found by Dijkstra's algorithm on the
+/// visibility graph, as in a [`Field`](crate::Field). No path brings the body's centre nearer to a
 /// wall than its half width, less 0.001 u for rounding; a gap that is narrower is closed. A body that
 /// begins too near to a wall may move away from it or along it, and a target that is too near to one for the
 /// body has no path to it. The time to make a field grows with the cube of the number of walls.

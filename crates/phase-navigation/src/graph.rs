@@ -3,7 +3,7 @@
 use crate::visibility::Bend;
 use phase_model::Vec2;
 
-/// What a mover may cross, and where it wants to go.
+/// The ground that a mover crosses, and its target.
 pub(crate) trait Ground {
     /// The point of the target nearest to a point (u).
     fn goal(&self, from: Vec2) -> Vec2;

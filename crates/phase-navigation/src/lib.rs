@@ -34,7 +34,8 @@
 //!     let above = Vec2::new(7.25, 16.0);
 //!     let below = Vec2::new(7.25, 6.0);
 //!     let parameters = NavigationParameters { impassable: 10.0, ..NavigationParameters::DEFAULT };
-//!     let field = |half_width| Field::new(&map, Target::Point(below), Mover { half_width }, &[], parameters);
+//!     let below = Target::Point(below);
+//!     let field = |half_width| Field::new(&map, below, Mover { half_width }, &[], parameters);
 //!
 //!     println!("{} u and {} u", field(1.2).distance(above), field(1.8).distance(above));
 //!     assert!((field(1.2).distance(above) - 10.0).abs() < 1e-3);

@@ -27,8 +27,8 @@
 //! fn main() -> Result<(), phase_model::LayoutError> {
 //!     let layout = Layout::new(2, None)?;
 //!     let body = AgentBody { radius: 0.8, max_force: 450.0 };
-//!     let physics =
-//!         PhysicsConfig { walls: layout.walls(), agents: [body; 2], object_radii: [0.0; 2], object_count: 0 };
+//!     let walls = layout.walls();
+//!     let physics = PhysicsConfig { walls, agents: [body; 2], object_radii: [0.0; 2], object_count: 0 };
 //!     let places = [Vec2::new(8.0, 18.0), Vec2::new(24.0, 8.0), Vec2::ZERO, Vec2::ZERO];
 //!     let state = State::new(places.map(|place| Body::at_rest(place, 0.0)));
 //!     let goals = [(AgentId::ZERO, LandmarkId::TOP_RIGHT), (AgentId::ONE, LandmarkId::TOP_LEFT)]

@@ -66,7 +66,7 @@ pub trait SymbolicProblem {
     ///
     /// The plan that is found is the cheapest if the bound is never too high; 0, the default, always is a
     /// lower bound and makes A* Dijkstra's algorithm. Infinity says that no goal can be reached. No state is
-    /// expanded twice if the bound is *consistent* too: no operator lowers it by more than the operator costs.
+    /// expanded twice if the bound is *consistent* too: no operator lowers it by more than its own cost.
     fn heuristic(&self, _state: &Self::State) -> f32 {
         0.0
     }
