@@ -8,6 +8,9 @@ use phase_sampler::SampleError;
 use std::path::PathBuf;
 use thiserror::Error;
 
+/// Words with which [`CliError::NotBuilt`] begins, for programs that start this one.
+pub const BUILT_WITHOUT: &str = "this program was built without";
+
 /// Why a command failed. The text is one plain sentence.
 #[derive(Debug, Error)]
 pub enum CliError {
@@ -64,7 +67,7 @@ pub enum CliError {
         broken: usize,
     },
     /// The command needs a part of the program that it was built without.
-    #[error("this program was built without {part}; {hint}")]
+    #[error("{} {part}; {hint}", BUILT_WITHOUT)]
     NotBuilt {
         /// The missing part, as the end of a sentence.
         part: &'static str,

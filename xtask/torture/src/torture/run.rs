@@ -6,6 +6,7 @@ use super::{
 };
 use crate::error::TortureError;
 use core::fmt;
+use phase_cli::error::BUILT_WITHOUT;
 use phase_files::{WriteError, atomic, fault};
 use phase_runs::error::RunError;
 use serde_json::Value;
@@ -21,8 +22,6 @@ use tempfile::TempDir;
 
 /// Most steps of writing that are looked for.
 const MOST_STEPS: u64 = 1 << 20;
-/// Words of a program that was built without something that a command needs.
-pub(super) const BUILT_WITHOUT: &str = "which this program was built without";
 
 /// A command with its input, and what it makes if nothing happens.
 pub(super) struct Ground<'a> {

@@ -54,7 +54,7 @@ pub(super) fn is_built_in(program: &Path) -> Result<bool, TortureError> {
     let cannot = |problem: String| TortureError::Undisturbed { what: NAME, problem };
     match Server::start(program, place.path(), &Start::default()) {
         Ok(_) => Ok(true),
-        Err(error) if error.contains(super::run::BUILT_WITHOUT) => Ok(false),
+        Err(error) if error.contains(phase_cli::error::BUILT_WITHOUT) => Ok(false),
         Err(error) => Err(cannot(format!("cannot be run at all: {error}"))),
     }
 }

@@ -11,6 +11,17 @@ fn nothing_is_lost_when_a_command_is_stopped() {
     assert!(row.ends_with("| 2 | 2 | 2 | 2 | 2 | 2 |"), "{table}");
 }
 
+/// Whatever a program lacks is told, and no failure.
+#[cfg(not(feature = "networks"))]
+#[test]
+fn a_command_that_the_program_lacks_is_left_out() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let output = phase(folder.path()).args(["torture", "--kills", "1", "--only", "train"]).output();
+    let output = output.expect("the program starts");
+    let told = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success() && told.contains("train: the program was built without it"), "{told}");
+}
+
 /// A fault that is asked for happens: otherwise nothing would be tested.
 #[test]
 fn faults_happen_at_their_step() {
