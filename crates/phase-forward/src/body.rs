@@ -1,11 +1,14 @@
 //! One body: its constant properties and its motion.
 
 use crate::{
-    constants::{H, MAX_FRICTION_IMPULSE, MAX_ROTATION, MAX_TRANSLATION, SKIN},
+    constants::{H, MAX_FRICTION_IMPULSE, SKIN},
     turn::{cos_sin, turned},
 };
 use glam::Vec3;
-use phase_model::{Action, AgentBody, Body, Vec2, physics};
+use phase_model::{
+    Action, AgentBody, Body, Vec2,
+    physics::{self, MAX_ROTATION, MAX_TRANSLATION},
+};
 
 /// Index of the static body.
 pub(crate) const STATIC: usize = 4;

@@ -26,10 +26,6 @@ pub(crate) const BAUMGARTE: f32 = 0.2;
 pub(crate) const IMPACT_BAUMGARTE: f32 = 0.75;
 /// Maximum correction of one position iteration (u).
 pub(crate) const MAX_CORRECTION: f32 = 0.2;
-/// Maximum displacement in one substep (u).
-pub(crate) const MAX_TRANSLATION: f32 = 2.0;
-/// Maximum rotation in one substep (rad).
-pub(crate) const MAX_ROTATION: f32 = 0.5 * core::f32::consts::PI;
 /// Maximum number of impacts on one wall that one substep resolves.
 pub(crate) const MAX_IMPACTS: u8 = 8;
 /// Minimum distance of a centre of mass from the boundary (u).

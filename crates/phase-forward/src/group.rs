@@ -2,18 +2,17 @@
 
 use crate::{
     body::{BodyMotion, STATIC, Shape, Twist},
-    constants::{H, LINEAR_SLOP, MAX_ROTATION, MAX_TRANSLATION},
+    constants::LINEAR_SLOP,
     contact::{Contact, correction},
     key::{BodyMask, KeySet, PAIRS, bit, pair_key},
     turn::turned,
     world::World,
 };
 use glam::Vec3;
-use phase_model::{AGENT_COUNT, Action, Vec2, physics::GROUND_FRICTION};
-
-/// Maximum speed (u/s) and angular velocity (rad/s), as in the exact kernel.
-pub(crate) const MAX_SPEED: f32 = MAX_TRANSLATION / H;
-const MAX_SPIN: f32 = MAX_ROTATION / H;
+use phase_model::{
+    AGENT_COUNT, Action, Vec2,
+    physics::{GROUND_FRICTION, MAX_SPEED, MAX_SPIN},
+};
 
 /// All bodies of a step in rigid groups. A body that neither holds nor is held is a group of one.
 #[derive(Clone, Debug)]

@@ -167,9 +167,9 @@ impl<'a> World<'a> {
     }
 }
 
-/// Largest accepted speed (u/s) and angular velocity (rad/s) of an input state; free motion is limited to far
-/// less.
-const MAX_SPEED: f32 = 1e4;
+/// Largest number of a velocity (u/s, rad/s) that a step begins with: one step's impacts may leave more than
+/// [`MAX_SPEED`](phase_model::physics::MAX_SPEED), to which the next limits it before anything moves.
+const MAX_VELOCITY: f32 = 1e4;
 
 /// Maximum accepted twist of a grip (rad); the strongest agents stay far below it.
 const MAX_GRIP_ANGLE: f32 = 1.0;
@@ -206,8 +206,8 @@ fn sanitized_grip(grip: Grip, agent: usize, angles: &[f32; 5]) -> Grip {
 /// Whether all numbers of a body are valid.
 fn is_sane(body: &Body) -> bool {
     body.position.is_finite()
-        && body.velocity.abs().max_element() <= MAX_SPEED
-        && body.angular_velocity.abs() <= MAX_SPEED
+        && body.velocity.abs().max_element() <= MAX_VELOCITY
+        && body.angular_velocity.abs() <= MAX_VELOCITY
         && body.angle.abs() <= MAX_ANGLE
         && !body.velocity.is_nan()
 }
@@ -220,8 +220,8 @@ pub(crate) fn sanitized(body: Body) -> Body {
             number(body.position.x, 2.0 * arena::MAX.x),
             number(body.position.y, 2.0 * arena::MAX.y),
         ),
-        velocity: Vec2::new(number(body.velocity.x, MAX_SPEED), number(body.velocity.y, MAX_SPEED)),
+        velocity: Vec2::new(number(body.velocity.x, MAX_VELOCITY), number(body.velocity.y, MAX_VELOCITY)),
         angle: valid_angle(body.angle),
-        angular_velocity: number(body.angular_velocity, MAX_SPEED),
+        angular_velocity: number(body.angular_velocity, MAX_VELOCITY),
     }
 }

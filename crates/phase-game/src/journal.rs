@@ -1,7 +1,7 @@
 //! Journals: everything that has to be kept of a game so that it can go on after a crash, one entry a line.
 
 use crate::{GameSettings, message::Ending};
-use phase_model::{AGENT_COUNT, Action, Scene};
+use phase_model::{AGENT_COUNT, Action, Scene, json::parse_as};
 use serde::{Deserialize, Deserializer, Serialize, Serializer, de::Error as _};
 use thiserror::Error;
 
@@ -121,7 +121,7 @@ pub enum JournalError {
 pub fn entries(text: &str) -> Result<Vec<Entry>, JournalError> {
     let whole = text.rfind('\n').map_or("", |end| &text[..end]);
     let entry = |(k, line): (usize, &str)| {
-        serde_json::from_str(line).map_err(|source| JournalError::Entry { number: k + 1, source })
+        parse_as(line).map_err(|source| JournalError::Entry { number: k + 1, source })
     };
     whole.lines().enumerate().map(entry).collect()
 }

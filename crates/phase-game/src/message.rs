@@ -1,7 +1,7 @@
 //! Messages between players and room, as JSON: one object a message, its kind in `type`.
 
 use crate::{Instructions, View};
-use phase_model::{AGENT_COUNT, Action, AgentId};
+use phase_model::{AGENT_COUNT, Action, AgentId, json::parse_as};
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
@@ -53,7 +53,7 @@ impl FromPlayer {
     /// # Errors
     /// [`MessageError`].
     pub fn parse(text: &str) -> Result<Self, MessageError> {
-        Ok(match serde_json::from_str(text).map_err(MessageError::Malformed)? {
+        Ok(match parse_as(text).map_err(MessageError::Malformed)? {
             Written::Hold { action } => {
                 let known = Action::ALL.into_iter().find(|it| it.name() == action);
                 Self::Hold(

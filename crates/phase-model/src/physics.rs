@@ -227,6 +227,15 @@ impl PhysicsConfig {
 /// visible rotation.
 pub const MAX_ANGLE: f32 = 1e5;
 
+/// Greatest displacement of a body in one substep (u), in both engines, as in Box2D.
+pub const MAX_TRANSLATION: f32 = 2.0;
+/// Greatest rotation of a body in one substep (rad), as in Box2D.
+pub const MAX_ROTATION: f32 = 0.5 * core::f32::consts::PI;
+/// Greatest speed of a body (u/s): 120. The fastest agents stay below a tenth of it.
+pub const MAX_SPEED: f32 = MAX_TRANSLATION / SUBSTEP_SECONDS;
+/// Greatest angular velocity of a body, to either side (rad/s): 94.
+pub const MAX_SPIN: f32 = MAX_ROTATION / SUBSTEP_SECONDS;
+
 /// The angle that engines take a body's to be: 0 if it is no number, and the closest of [`MAX_ANGLE`] if it
 /// is beyond. A scene has no such angles ([`Scene::validate`](crate::Scene::validate)).
 #[must_use]

@@ -25,6 +25,8 @@ pub const EVENT_STEPS: Setting = Setting::whole("max_steps", "steps", 1, 10_000)
 pub const THREADS: Setting = Setting::whole("threads", "", 1, 1024);
 /// Events of one dataset, whose descriptions are in memory at once.
 pub const EVENTS: Setting = Setting::whole("events", "", 1, 1_000_000);
+/// Rounds of a training, of 320 events each.
+pub const ROUNDS: Setting = Setting::whole("rounds", "", 1, 1_000_000);
 
 /// A number that somebody chooses: its name, its unit and the values that it may have.
 #[derive(Clone, Copy, PartialEq, Debug)]

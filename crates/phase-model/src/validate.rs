@@ -2,7 +2,9 @@
 
 use crate::{
     AGENT_COUNT, AgentId, Attitude, Entity, EventKind, Goal, MAX_OBJECTS, ObjectId, Scene, arena,
-    geometry::Outline, physics::MAX_ANGLE, scene::AgentSpec,
+    geometry::Outline,
+    physics::{MAX_ANGLE, MAX_SPEED, MAX_SPIN},
+    scene::AgentSpec,
 };
 use thiserror::Error;
 
@@ -25,6 +27,18 @@ pub enum SceneError {
         field: String,
         /// Its angle (rad).
         angle: f32,
+    },
+    /// A body is faster than engines move it.
+    #[error(
+        "{field} must not be faster than {MAX_SPEED:.0} u/s and {MAX_SPIN:.1} rad/s, not {speed} u/s and {spin} rad/s"
+    )]
+    Fast {
+        /// The start, such as `agents[0].start`.
+        field: String,
+        /// Its speed (u/s).
+        speed: f32,
+        /// Its angular velocity (rad/s).
+        spin: f32,
     },
     /// A body's origin lies outside the arena.
     #[error("{field} must lie inside the arena (x 6 to 26, y 2 to 22), not at ({x}, {y})")]
@@ -85,7 +99,7 @@ pub enum SceneError {
 
 impl Scene {
     /// Checks everything a scene must satisfy to be simulated: finite starts inside the arena, angles up to
-    /// [`MAX_ANGLE`], goals about entities that exist, at most one social agent, with a goal derived from the
+    /// [`MAX_ANGLE`], no body faster than engines move it, goals about entities that exist, at most one social agent, with a goal derived from the
     /// other's. Overlapping starts are valid: the physics pushes the bodies apart, and some measured
     /// recordings begin like this.
     ///
@@ -102,6 +116,10 @@ impl Scene {
             let field = format!("{}.start", field_name(entity));
             if body.angle.abs() > MAX_ANGLE {
                 return Err(SceneError::Angle { field, angle: body.angle });
+            }
+            let (speed, spin) = (body.velocity.length(), body.angular_velocity);
+            if speed > MAX_SPEED || spin.abs() > MAX_SPIN {
+                return Err(SceneError::Fast { field, speed, spin });
             }
             if !arena::contains(body.position) {
                 return Err(SceneError::OutsideArena { field, x: body.position.x, y: body.position.y });

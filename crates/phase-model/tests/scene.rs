@@ -39,12 +39,20 @@ type Fault = (fn(&mut Scene), &'static str);
 fn faults_are_named() {
     assert_eq!(scene().validate(), Ok(()));
     assert_eq!(scene().validate_without_overlap(), Ok(()));
-    let faults: [Fault; 9] = [
+    let faults: [Fault; 11] = [
         (
             |s| s.agents[1].start.angle = -2e5,
             "agents[1].start.angle must be -100000 to 100000 rad, not -200000",
         ),
         (|s| s.agents[0].start.position.x = f32::NAN, "agents[0].start must hold finite numbers"),
+        (
+            |s| s.objects[0].start.velocity = Vec2::new(100.0, 100.0),
+            "objects[0].start must not be faster than 120 u/s and 94.2 rad/s, not 141.42136 u/s and 0 rad/s",
+        ),
+        (
+            |s| s.agents[0].start.angular_velocity = -100.0,
+            "agents[0].start must not be faster than 120 u/s and 94.2 rad/s, not 0 u/s and -100 rad/s",
+        ),
         (|s| s.objects[0].start.angle = f32::INFINITY, "objects[0].start must hold finite numbers"),
         (|s| s.agents[1].start.position.y = 22.5, "agents[1].start must lie inside the arena"),
         (|s| s.agents[0].goal = object_on(1, 2), "agents[0].goal refers to object 1"),

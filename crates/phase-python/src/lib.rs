@@ -30,6 +30,7 @@ mod scene;
 mod world;
 mod worlds;
 
+use phase_model::setting::{EVENT_STEPS, EVENTS, THREADS};
 use phase_sim::vector;
 use pyo3::prelude::*;
 
@@ -39,6 +40,9 @@ fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     let py = module.py();
     module.add("PhaseError", py.get_type::<error::PhaseError>())?;
     module.add("OBSERVATION_SIZE", vector::SIZE)?;
+    module.add("MOST_STEPS", EVENT_STEPS.most())?;
+    module.add("MOST_THREADS", THREADS.most())?;
+    module.add("MOST_EVENTS", EVENTS.most())?;
     module.add("OBSERVATION_PARTS", observation_parts())?;
     module.add("ACTIONS", scene::action_names())?;
     module.add("GOALS", scene::goals_as_json()?)?;

@@ -10,6 +10,7 @@ use numpy::{PyArray1, PyArray2, PyArray3, PyArrayMethods};
 use phase_minds::{Agent, MindKind, MindParameters};
 use phase_model::{
     Action, AgentId,
+    json::parse_as,
     random::{self, Pcg64Mcg, Purpose},
 };
 use phase_perception::Observation;
@@ -161,7 +162,7 @@ impl Mind {
         let mut state = self.state();
         let state = &mut *state;
         state.last_action = last_action.map(action).transpose()?;
-        state.thought = thought.map(|text| serde_json::from_str(&text)).transpose().map_err(raise)?;
+        state.thought = thought.map(|text| parse_as(&text)).transpose().map_err(raise)?;
         state.searches = searches;
         py.detach(|| {
             let before = core::iter::once(None).chain(actions.into_iter().map(Some));
@@ -281,6 +282,6 @@ fn own_parameters(text: Option<&str>) -> PyResult<MindParameters> {
 /// `PhaseError` that names the parameter and the rule.
 pub(crate) fn read_parameters(text: Option<&str>) -> PyResult<MindParameters> {
     let Some(text) = text else { return Ok(MindParameters::default()) };
-    let given = serde_json::from_str(text).map_err(raise)?;
+    let given = parse_as(text).map_err(raise)?;
     MindParameters::from_overrides(given).map_err(raise)
 }

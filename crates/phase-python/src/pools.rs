@@ -4,6 +4,7 @@
 //! whoever gave it work would wait for ever.
 
 use crate::error::raise;
+use phase_model::setting::THREADS;
 use pyo3::prelude::*;
 use rayon::ThreadPool;
 use std::{
@@ -11,9 +12,6 @@ use std::{
     process,
     sync::{Arc, Mutex, PoisonError},
 };
-
-/// The greatest number of threads of a pool.
-const MOST_THREADS: usize = 1024;
 
 /// The pools of one process, by their numbers of threads.
 struct Pools {
@@ -28,12 +26,9 @@ static POOLS: Mutex<Pools> = Mutex::new(Pools { process: 0, by_threads: BTreeMap
 /// Checks a number of threads.
 ///
 /// # Errors
-/// `PhaseError`, if it is not 1 to [`MOST_THREADS`].
+/// `PhaseError`, if it is not in the range [`THREADS`].
 pub(crate) fn check_threads(threads: usize) -> PyResult<()> {
-    if (1..=MOST_THREADS).contains(&threads) {
-        return Ok(());
-    }
-    Err(raise(format!("threads is a whole number from 1 to {MOST_THREADS}, not {threads}")))
+    THREADS.check_count(threads).map(|_| ()).map_err(raise)
 }
 
 /// The pool of a number of threads in this process.

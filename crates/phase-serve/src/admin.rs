@@ -10,6 +10,7 @@ use axum::{
     routing::{delete, get},
 };
 use phase_event::Recording;
+use phase_files::regular;
 use phase_model::words::Names;
 use serde_json::{Value, json};
 use std::{fs, path::Path as FilePath, sync::Arc};
@@ -69,7 +70,7 @@ async fn events(State(app): State<Arc<App>>, headers: HeaderMap) -> Result<Respo
     let read = move || {
         let mut recordings: Vec<Recording> = Vec::new();
         for file in files(&folder)? {
-            let bytes = fs::read(&file).map_err(|error| ApiError::failed(&error))?;
+            let bytes = regular::bytes(&file).map_err(|error| ApiError::failed(&error))?;
             recordings.extend(phase_event::parse(&bytes).map_err(|error| ApiError::failed(&error))?);
         }
         if recordings.is_empty() {

@@ -5,7 +5,7 @@ use axum::{
     http::StatusCode,
     response::{IntoResponse, Response},
 };
-use phase_files::{WriteError, folder::FolderError};
+use phase_files::{FileError, WriteError, folder::FolderError};
 use serde_json::json;
 use std::{io, net::SocketAddr, path::PathBuf};
 use thiserror::Error;
@@ -28,7 +28,10 @@ pub enum ServeError {
     /// A folder or file of the server cannot be written.
     #[error(transparent)]
     Write(#[from] WriteError),
-    /// A folder or file of the server cannot be read.
+    /// A file cannot be read.
+    #[error(transparent)]
+    File(#[from] FileError),
+    /// A folder of the server cannot be read.
     #[error("{}: cannot be read", path.display())]
     Read {
         /// It.

@@ -6,7 +6,7 @@ use phase_model::{
     json::FieldError,
     setting::{EVENT_STEPS, RangeError, Setting},
 };
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Serialize, de::IgnoredAny};
 use serde_json::Value;
 
 /// Least length (steps). It may be 0, and above the greatest length, which then counts.
@@ -84,6 +84,7 @@ pub struct SimulationSettings {
 
 /// Settings as a file has them, whose ranges have not been checked but for those of minds.
 #[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
 struct Unchecked {
     engine: Engine,
     max_steps: usize,
@@ -98,6 +99,9 @@ struct Unchecked {
     #[serde(default)]
     strongest_coasts: bool,
     minds: MindParameters,
+    /// The part of the world that players saw: a setting of the two-player game, which stands beside these.
+    #[serde(default, rename = "view")]
+    _view: Option<IgnoredAny>,
 }
 
 impl Unchecked {
@@ -150,7 +154,7 @@ impl SimulationSettings {
     /// ```
     ///
     /// # Errors
-    /// [`FieldError`], if one is missing, of the wrong type or out of its range.
+    /// [`FieldError`], if one is missing, unknown, of the wrong type or out of its range.
     pub fn read(value: &Value, field: &str) -> Result<Self, FieldError> {
         if let Some(minds) = value.get("minds") {
             MindParameters::read(minds, &format!("{field}.minds"))?;

@@ -88,6 +88,10 @@ fn settings_can_be_written_and_read_and_name_engine_and_kind_of_minds() {
             let refused = serde_json::from_value::<SimulationSettings>(part).unwrap_err().to_string();
             assert!(refused.contains(&format!("missing field `{name}`")), "{refused}");
         }
+        let mut more = written;
+        more["still_step"] = 1.into();
+        let refused = SimulationSettings::read(&more, "settings").unwrap_err().to_string();
+        assert!(refused.contains("unknown field `still_step`"), "{refused}");
     }
 }
 

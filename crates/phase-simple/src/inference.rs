@@ -13,7 +13,20 @@ use crate::{
 use core::ops::ControlFlow;
 use phase_event::ObservedEvent;
 use phase_model::random::{self, Purpose};
+use phase_model::setting::RangeError;
 use phase_pomcp::PomcpError;
+use thiserror::Error;
+
+/// Why nothing can be inferred.
+#[derive(Debug, Error)]
+pub enum InferenceError {
+    /// A setting is out of its range.
+    #[error(transparent)]
+    Settings(#[from] RangeError),
+    /// The agents' search failed.
+    #[error("the minds cannot be simulated")]
+    Search(#[from] PomcpError),
+}
 
 /// The learnt models that an inference uses.
 #[derive(Clone)]
@@ -31,23 +44,23 @@ pub struct Cues<'a> {
 /// that come with the program.
 ///
 /// # Errors
-///
-/// Invalid parameters of the agents' search.
+/// [`InferenceError`].
 pub fn infer(
     prepared: &PreparedEvent,
     cues: &Cues<'_>,
     seed: u64,
     settings: &InferenceSettings,
     tick: &mut dyn FnMut() -> ControlFlow<()>,
-) -> Result<Option<Inference>, PomcpError> {
+) -> Result<Option<Inference>, InferenceError> {
+    settings.validate()?;
     let gamma = settings.gamma;
     match &settings.algorithm {
         Algorithm::InversePlanning(planning) => {
             let guide = cues.guide.as_ref().map(|guide| GuideCourse::new(guide, prepared.observed()));
             let mut planners = Planners::new(prepared, planning, settings.alternative);
-            planners.weigh(gamma, guide.as_ref(), &mut Budget::UNLIMITED.clone(), tick)
+            Ok(planners.weigh(gamma, guide.as_ref(), &mut Budget::UNLIMITED.clone(), tick)?)
         }
-        Algorithm::Chains(chains) => run_chains(prepared, cues.strengths, seed, gamma, chains, tick),
+        Algorithm::Chains(chains) => Ok(run_chains(prepared, cues.strengths, seed, gamma, chains, tick)?),
     }
 }
 
@@ -69,7 +82,7 @@ fn run_chains(
     let chains = Chains { prepared, initial: &initial, strengths, gamma, settings };
     let mut accepted = vec![0; settings.iterations];
     let mut particles = Vec::with_capacity(settings.particles);
-    for particle in 0..settings.particles.max(1) {
+    for particle in 0..settings.particles {
         let mut random = random::stream(seed, Purpose::Inference, particle as u64);
         if tick().is_break() {
             return Ok(None);
@@ -89,13 +102,14 @@ fn run_chains(
 /// one call that cannot be cancelled. The front page has an example.
 ///
 /// # Errors
-/// Invalid parameters of the agents' search.
+/// [`InferenceError`].
 pub fn explain(
     observed: &ObservedEvent,
     strengths: &dyn StrengthCue,
     seed: u64,
     settings: &InferenceSettings,
-) -> Result<Inference, PomcpError> {
+) -> Result<Inference, InferenceError> {
+    settings.validate()?;
     let prepared = PreparedEvent::new(observed, settings.agents, seed);
     let cues = Cues { strengths, guide: None };
     let inference = infer(&prepared, &cues, seed, settings, &mut || ControlFlow::Continue(()))?;

@@ -83,7 +83,7 @@ pub use generative::{AgentDecision, PreparedEvent};
 pub use guide::{Guidance, Guide};
 pub use hypothesis::{Hypothesis, physical_goals};
 pub use impression::{Happening, Impression, Interaction};
-pub use inference::{Cues, explain, infer};
+pub use inference::{Cues, InferenceError, explain, infer};
 pub use intent::Intent;
 pub use intent_network::IntentNetwork;
 pub use inverse_dynamics::{InverseDynamics, MotionTracker};

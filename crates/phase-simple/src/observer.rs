@@ -9,7 +9,7 @@ use crate::{
 };
 use core::ops::ControlFlow;
 use phase_event::{ObservedError, ObservedEvent};
-use phase_model::{Body, MAX_ENTITIES};
+use phase_model::{Body, MAX_ENTITIES, setting::RangeError};
 use phase_pomcp::PomcpError;
 use std::sync::Arc;
 use thiserror::Error;
@@ -20,6 +20,9 @@ pub enum ObserverError {
     /// Algorithm 2 simulates whole events.
     #[error("only inverse planning can watch an event row by row, not the chains of Algorithm 2")]
     Chains,
+    /// A setting is out of its range.
+    #[error(transparent)]
+    Settings(#[from] RangeError),
     /// A row that is no observation.
     #[error("the next row cannot be observed")]
     Row(#[from] ObservedError),
@@ -69,7 +72,8 @@ impl Observer {
     /// Watches an event from its beginning: `observed` has the rows seen so far, at least one.
     ///
     /// # Errors
-    /// [`ObserverError::Chains`] unless the settings are those of inverse planning.
+    /// [`ObserverError::Chains`] unless the settings are those of inverse planning, and
+    /// [`ObserverError::Settings`].
     pub fn new(
         observed: &ObservedEvent,
         guide: Option<&Guide>,
@@ -79,6 +83,7 @@ impl Observer {
         let Algorithm::InversePlanning(planning) = settings.algorithm else {
             return Err(ObserverError::Chains);
         };
+        settings.validate()?;
         let tracker = MotionTracker::new(observed);
         let observed = Arc::new(observed.clone());
         let motion = Arc::new(tracker.motion().clone());

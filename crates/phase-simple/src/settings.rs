@@ -2,7 +2,10 @@
 
 use crate::cue::GAMMA;
 use phase_minds::{MindKind, MindParameters, PublishedParameters, Recorder};
-use phase_model::AGENT_COUNT;
+use phase_model::{
+    AGENT_COUNT,
+    setting::{EVENT_STEPS, RangeError, Setting},
+};
 use serde::{Deserialize, Serialize};
 
 /// The source of new proposals.
@@ -51,7 +54,7 @@ pub enum Algorithm {
 pub struct InferenceSettings {
     /// The algorithm that finds and weighs hypotheses.
     pub algorithm: Algorithm,
-    /// γ of the goal proposal (1/u).
+    /// γ of the goal proposal (1/u), 0 to 1000.
     pub gamma: f64,
     /// The agents in a simulation.
     pub agents: ImaginedAgents,
@@ -137,10 +140,10 @@ const COMPARISON_LAPSE_RATE: f64 = 0.05;
 /// (docs/explanation/simple.md), σ was selected on the validation events of PHASE-500.
 #[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
 pub struct InversePlanningSettings {
-    /// ε, the lapse rate: probability of a uniformly random action instead of the policy's.
+    /// ε, the lapse rate: probability of a uniformly random action instead of the policy's, 0 to 1.
     #[serde(rename = "slips")]
     pub lapse_rate: f64,
-    /// σ, scale of the residuals (u): a residual larger by σ divides an action's likelihood by e.
+    /// σ, scale of the residuals (u), above 0 and at most 100: a residual larger by σ divides an action's likelihood by e.
     pub tolerance: f64,
     /// κ, inverse temperature of the action likelihood of a step, 0 to 1: one over the integrated
     /// autocorrelation time of the log likelihood ratio of two intents (steps), because what a decision tells
@@ -165,17 +168,17 @@ impl InversePlanningSettings {
 pub struct ChainSettings {
     /// The source of proposals after the initial ones.
     pub update: Update,
-    /// L, iterations after the initial proposals.
+    /// L, iterations after the initial proposals; 0 to 10000.
     pub iterations: usize,
-    /// M, particles, each a separate chain; at least 1.
+    /// M, particles, each a separate chain; 1 to 10000.
     pub particles: usize,
-    /// β of the likelihood (1/u).
+    /// β of the likelihood (1/u), 0 to 1000.
     pub beta: f64,
-    /// η of the choice of a window (1/u).
+    /// η of the choice of a window (1/u), 0 to 1000.
     pub eta: f64,
-    /// ΔT, length of a window (steps).
+    /// ΔT, length of a window (steps), at least 1.
     pub window: usize,
-    /// Steps between resynchronisations with the observed state; `None` (the paper) for none.
+    /// Steps between resynchronisations with the observed state, at least 1; `None` (the paper) for none.
     #[serde(rename = "anchor")]
     pub resync_interval: Option<usize>,
     /// The source of proposals of strengths. Absent in older files, which means the network.
@@ -250,6 +253,67 @@ impl InferenceSettings {
             Algorithm::InversePlanning(_) => kinds * INTENTS * AGENT_COUNT,
             Algorithm::Chains(ChainSettings { update: Update::Initial, particles, .. }) => particles,
             Algorithm::Chains(ChainSettings { iterations, particles, .. }) => particles * (iterations + 1),
+        }
+    }
+}
+
+/// ε, a probability.
+const fn lapses(name: &'static str) -> Setting {
+    Setting::real(name, "", 0.0, 1.0)
+}
+
+/// A number of steps of an event, at least one.
+const fn steps(name: &'static str) -> Setting {
+    Setting::whole(name, "steps", 1, EVENT_STEPS.high as u32)
+}
+
+/// A scale by which a distance is multiplied.
+const fn per_length(name: &'static str) -> Setting {
+    Setting::real(name, "1/u", 0.0, 1000.0)
+}
+
+impl InferenceSettings {
+    /// Checks that everything is in its range. [`infer`](crate::infer) and [`Observer`](crate::Observer) do
+    /// so themselves.
+    ///
+    /// # Errors
+    /// [`RangeError`], which names the setting, as in JSON, and its range.
+    pub fn validate(&self) -> Result<(), RangeError> {
+        let checked = |path: &str, values: &[(Setting, f64)]| {
+            values.iter().try_for_each(|(setting, value)| setting.check(*value)).map_err(|it| it.within(path))
+        };
+        checked("", &[(per_length("gamma"), self.gamma)])?;
+        let minds = |agents: &ImaginedAgents| agents.minds.validate().map_err(|error| error.within("minds"));
+        minds(&self.agents).map_err(|error| error.within("agents"))?;
+        if let Some(AlternativeAgents { agents, lapse_rate, comparison_lapse_rate }) = &self.alternative {
+            minds(agents).map_err(|error| error.within("alternative.agents"))?;
+            let rates = [
+                (lapses("lapse_rate"), *lapse_rate),
+                (lapses("comparison_lapse_rate"), *comparison_lapse_rate),
+            ];
+            checked("alternative", &rates)?;
+        }
+        match &self.algorithm {
+            Algorithm::InversePlanning(it) => checked(
+                "algorithm.inverse_planning",
+                &[
+                    (lapses("slips"), it.lapse_rate),
+                    (Setting::positive("tolerance", "u", 100.0), it.tolerance),
+                    (lapses("temper"), it.inverse_temperature),
+                    (steps("interval"), it.interval as f64),
+                ],
+            ),
+            Algorithm::Chains(it) => checked(
+                "algorithm.chains",
+                &[
+                    (Setting::whole("iterations", "", 0, 10_000), it.iterations as f64),
+                    (Setting::whole("particles", "", 1, 10_000), it.particles as f64),
+                    (per_length("beta"), it.beta),
+                    (per_length("eta"), it.eta),
+                    (steps("window"), it.window as f64),
+                    (steps("anchor"), it.resync_interval.unwrap_or(1) as f64),
+                ],
+            ),
         }
     }
 }

@@ -11,6 +11,7 @@ use phase_simple::{
     ChainSettings, Inference, InferenceSettings, InverseDynamics, PreparedEvent, UniformStrength, Update,
     explain,
 };
+use serde_json::json;
 
 /// An event of a variant, by agents with smaller searches than the paper's.
 fn event(variant: Variant, seed: u64) -> Event {
@@ -60,6 +61,28 @@ fn no_label_is_seen() {
     relabelled.recorded_steps = Some(77);
     relabelled.simulation = None;
     assert_eq!(relabelled.observed().expect("a sound event"), observed(&event));
+}
+
+/// A setting out of its range is named before anything is simulated.
+#[test]
+fn settings_out_of_range_are_refused() {
+    let event = observed(&event(Variant::Places, 2)).prefix(3);
+    let [planning, chains] = quick().map(|settings| serde_json::to_value(settings).expect("JSON"));
+    for (settings, path, value) in [
+        (&planning, "algorithm.inverse_planning.interval", json!(0)),
+        (&planning, "algorithm.inverse_planning.temper", json!(1.5)),
+        (&planning, "algorithm.inverse_planning.tolerance", json!(0.0)),
+        (&planning, "gamma", json!(-1.0)),
+        (&chains, "algorithm.chains.particles", json!(0)),
+        (&chains, "algorithm.chains.iterations", json!(1_000_000_000)),
+        (&chains, "algorithm.chains.anchor", json!(0)),
+    ] {
+        let mut changed = settings.clone();
+        *changed.pointer_mut(&format!("/{}", path.replace('.', "/"))).expect("there is one") = value;
+        let read = serde_json::from_value(changed).expect("of the right types");
+        let refused = explain(&event, &UniformStrength, 1, &read).expect_err(path).to_string();
+        assert!(refused.contains(&format!("`{path}` must be")), "{refused}");
+    }
 }
 
 #[test]

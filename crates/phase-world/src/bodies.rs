@@ -1,6 +1,6 @@
 //! The bodies and walls in rapier's terms.
 
-use crate::{contact, settings};
+use crate::contact;
 use phase_model::{Body, Entity, PhysicsConfig, Segment, Vec2, arena, geometry, physics};
 use rapier2d::prelude::*;
 
@@ -12,8 +12,6 @@ const WALL_SKIN: f32 = 0.01;
 /// Half the thickness of the arena's boundary (u). No body penetrates deeply enough to be pushed out on the
 /// far side.
 const BOUNDARY_HALF_THICKNESS: f32 = 10.0;
-/// Maximum angular velocity of a start state (rad/s).
-const MAX_SPIN: f32 = 1000.0;
 
 /// The rotation by an angle (rad), the same on every platform.
 #[must_use]
@@ -55,9 +53,9 @@ pub(crate) fn sanitized(body: &Body, walls: &[Segment]) -> Body {
     let or_zero = |number: f32| if number.is_finite() { number } else { 0.0 };
     Body {
         position: inside(beside(or(body.position, arena::CENTRE), walls)),
-        velocity: or(body.velocity.clamp_length_max(settings::MAX_SPEED), Vec2::ZERO),
+        velocity: or(body.velocity.clamp_length_max(physics::MAX_SPEED), Vec2::ZERO),
         angle: physics::valid_angle(body.angle),
-        angular_velocity: or_zero(body.angular_velocity).clamp(-MAX_SPIN, MAX_SPIN),
+        angular_velocity: or_zero(body.angular_velocity).clamp(-physics::MAX_SPIN, physics::MAX_SPIN),
     }
 }
 

@@ -1,10 +1,8 @@
 //! Settings of rapier's solver.
 
-use phase_model::arena::SUBSTEP_SECONDS;
+use phase_model::{arena::SUBSTEP_SECONDS, physics::MAX_SPEED};
 use rapier2d::prelude::{IntegrationParameters, PhysicsWorld, SpringCoefficients, Vector};
 
-/// Maximum speed of any body, and of position corrections (u/s): 2 u in one substep.
-pub(crate) const MAX_SPEED: f32 = 2.0 / SUBSTEP_SECONDS;
 /// Share of a penetration that is corrected within one substep: ten corrections by a fifth each.
 const CORRECTION: f32 = 0.893;
 /// Share of a penetration that is corrected within one substep after an impact on a wall.

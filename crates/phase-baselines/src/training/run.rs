@@ -23,7 +23,7 @@ pub struct TrainingSettings {
     pub round: usize,
     /// Rounds without progress on the validation events after which training ends.
     pub patience: usize,
-    /// Maximum number of rounds.
+    /// Maximum number of rounds, in the range [`ROUNDS`](phase_model::setting::ROUNDS).
     pub rounds: usize,
 }
 

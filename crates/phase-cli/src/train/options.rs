@@ -2,7 +2,7 @@
 
 use crate::output::Output;
 use clap::{Args, Subcommand, value_parser};
-use phase_model::setting::EVENTS;
+use phase_model::setting::{EVENTS, ROUNDS};
 #[cfg(feature = "networks")]
 use phase_runs::train::{Trainee, Training};
 use std::path::PathBuf;
@@ -63,7 +63,7 @@ pub struct NetworkOptions {
     #[command(flatten)]
     pub options: Options,
     /// Maximum number of rounds, 1 to 1000000
-    #[arg(long, value_name = "N", value_parser = value_parser!(u32).range(1..=1_000_000))]
+    #[arg(long, value_name = "N", value_parser = value_parser!(u32).range(ROUNDS.bounds()))]
     pub rounds: Option<u32>,
 }
 

@@ -1,6 +1,7 @@
 //! `render`: from events to pictures.
 
-use crate::support::{QUICK, recording, succeed, tree, write_events};
+use crate::support::{QUICK, recording, refuse, succeed, tree, write_events};
+use serde_json::Value;
 use std::{fs, path::Path};
 
 fn names(folder: &Path) -> Vec<String> {
@@ -61,6 +62,16 @@ fn datasets_are_rendered_as_they_were_made() {
         succeed(path, &["render", "set", "--belief", "both", "--jobs", jobs, "--out", out]);
         tree(&path.join(out))
     };
+    // A file cannot make it fill the memory.
+    let longer =
+        ["--events", "1", "--no-video", "--simulations", "5", "--particles", "2", "--max-steps", "6"];
+    succeed(path, &[&["gen-dataset", "--out", "longer"], &longer[..]].concat());
+    let file = path.join("longer/events/demo-0000.json");
+    let mut document: Value = serde_json::from_slice(&fs::read(file).expect("an event")).expect("JSON");
+    document["events"][0]["settings"]["minds"]["particles"] = 100_000.into();
+    fs::write(path.join("many.json"), document.to_string()).expect("written");
+    let refused = refuse(path, &["render", "many.json", "--belief", "both", "--out", "many"]);
+    assert!(refused.contains("at most 1000000 states"), "{refused}");
     let (alone, together) = (video("1", "alone"), video("2", "together"));
     assert_eq!(names(&path.join("alone")), ["demo-0000.belief-both.mp4", "demo-0001.belief-both.mp4"]);
     assert!(alone == together, "the number of threads changes nothing");

@@ -66,6 +66,11 @@ fn damaged_journals_are_refused() {
     let step = Entry::Step { actions: Actions([Action::Stop; 2]) };
     assert!(refused(vec![journal[0].clone(), step]).contains("entry 2"));
     assert!(refused(vec![journal[0].clone(), Entry::Ended { round: 0 }]).contains("entry 2"));
+    // Which of two members counts is not for a reader to choose.
+    let twice = lines(&journal[..1]).replacen("\"seed\":", "\"seed\":1,\"seed\":", 1);
+    assert!(twice.contains("\"seed\":1,"));
+    let refused = entries(&twice).expect_err("ambiguous");
+    assert!(core::error::Error::source(&refused).is_some_and(|why| why.to_string().contains("comes twice")));
     for text in ["{}\n", "nonsense\n", "{\"entry\":\"step\",\"actions\":[\"up\",\"fly\"]}\n", "[1]\n"] {
         assert!(entries(text).expect_err("no entry").to_string().contains("entry 1"));
     }

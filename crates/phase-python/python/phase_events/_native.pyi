@@ -7,6 +7,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 ACTIONS: Final[list[str]]
+MOST_EVENTS: Final[int]
+MOST_STEPS: Final[int]
+MOST_THREADS: Final[int]
 OBSERVATION_SIZE: Final[int]
 GOALS: Final[str]
 LANDMARKS: Final[NDArray[np.float32]]

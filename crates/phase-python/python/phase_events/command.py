@@ -10,12 +10,10 @@ from pathlib import Path
 
 from . import _native
 from ._check import choice, path_of, seed_of, text, to_json, whole
-from ._native import PhaseError
+from ._native import MOST_EVENTS, MOST_THREADS, PhaseError
 from .events import save_events
 from .perception import methods
 
-MOST_JOBS = 1024
-"""The greatest number of events that are worked on at once."""
 SPLITS = ("train", "validation", "test")
 """The parts of a dataset."""
 MEASURES = {
@@ -74,7 +72,7 @@ def generate(preset="demo", events=None, out=None, *, shard=None, seed=None, vid
         raise PhaseError("out: a folder for the dataset is needed")
     arguments = ["gen-dataset", f"--preset={path_of(preset)}", f"--out={path_of(out)}"]
     if events is not None:
-        arguments.append(f"--events={whole('events', events, 1, 2**32 - 1)}")
+        arguments.append(f"--events={whole('events', events, 1, MOST_EVENTS)}")
     if seed is not None:
         arguments.append(f"--seed={seed_of(seed)}")
     if shard is not None:
@@ -85,7 +83,7 @@ def generate(preset="demo", events=None, out=None, *, shard=None, seed=None, vid
     if not video:
         arguments.append("--no-video")
     if jobs is not None:
-        arguments.append(f"--jobs={whole('jobs', jobs, 1, MOST_JOBS)}")
+        arguments.append(f"--jobs={whole('jobs', jobs, 1, MOST_THREADS)}")
     if quiet:
         arguments.append("--quiet")
     if not isinstance(options, (tuple, list)):

@@ -9,12 +9,10 @@ import numpy as np
 
 from . import _native
 from ._check import choice, floats, path_of, seed_of, text, to_json, whole
-from ._native import ACTIONS, LANDMARKS, PhaseError
+from ._native import ACTIONS, LANDMARKS, MOST_STEPS, PhaseError
 from .scenes import KINDS
 from .scenes import scene as as_scene
 
-MOST_STEPS = 10_000
-"""The greatest length of an event (steps of 0.25 s)."""
 SIDES = (64, 2000)
 """The least and the greatest side of a picture (pixels)."""
 PALETTES = ("paper", "accessible")

@@ -6,8 +6,8 @@ import numpy as np
 
 from . import _native
 from ._check import choice, floats, seed_of, to_json, whole
-from ._native import PhaseError
-from .events import MOST_STEPS, RELATIONS, Event, ObservedEvent
+from ._native import MOST_STEPS, PhaseError
+from .events import RELATIONS, Event, ObservedEvent
 from .scenes import scene as as_scene
 
 GOALS = tuple(json.loads(_native.GOALS))
@@ -45,7 +45,7 @@ def infer(event, *, method="simple", seed=0, steps=None):
         steps: the number of steps to watch, at least 1; ``None`` for all.
 
     Returns:
-        a dict: ``goals``, for each agent a list of ``{"goal": …, "p": …}``, most likely first; ``relation``, the probabilities of
+        a dict: ``watched_steps``, the number of steps that were watched; ``goals``, for each agent a list of ``{"goal": …, "p": …}``, most likely first; ``relation``, the probabilities of
         ``friendly``, ``adversarial`` and ``neutral``; ``roles``, the probabilities that either agent ``helps`` or ``hinders``;
         ``reported``, the shares of people who would report each relation; ``strengths``, for each agent a dict from levels of strength to
         their probabilities, over the most likely hypotheses; ``details`` as in docs/reference/formats/evaluation.md. What a method does not say is ``None``.
@@ -60,7 +60,7 @@ def infer(event, *, method="simple", seed=0, steps=None):
     if event.steps < 1:
         raise PhaseError(f"the event {event.id} has no step to infer from")
     method = choice("method", method, methods()["goals"])
-    return _answer(_native.infer(watched.native, method, seed_of(seed)))
+    return {**_answer(_native.infer(watched.native, method, seed_of(seed))), "watched_steps": watched.steps}
 
 
 def goal_index(goal):
@@ -125,7 +125,7 @@ def forecast(event, *, method="simple", watched=20, steps=20, seed=0):
         seed: a whole number from 0 to 2**64 - 1, for the method's random draws.
 
     Returns:
-        a dict: ``forecast`` (entities, steps, 2), the expected positions x, y (u), and ``futures`` (samples, entities, steps, 2),
+        a dict: ``watched_steps``, as given; ``forecast`` (entities, steps, 2), the expected positions x, y (u), and ``futures`` (samples, entities, steps, 2),
         equally likely ones; no sample for methods that predict one future only.
 
     Raises:
@@ -140,7 +140,8 @@ def forecast(event, *, method="simple", watched=20, steps=20, seed=0):
     answer = json.loads(_native.forecast(seen.prefix(watched).native, method, steps, seed_of(seed)))
     entities = len(seen.radii)
     futures = np.array(answer["futures"], dtype=np.float32).reshape(-1, entities, steps, 2)
-    return {"forecast": np.array(answer["forecast"], dtype=np.float32), "futures": futures}
+    forecast = np.array(answer["forecast"], dtype=np.float32)
+    return {"watched_steps": watched, "forecast": forecast, "futures": futures}
 
 
 class Observer:
@@ -182,7 +183,7 @@ class Observer:
             row: (entities, 5), columns as of the first row.
 
         Returns:
-            a dict as of :func:`infer`, without ``details``.
+            a dict as of :func:`infer`, without ``details`` and ``watched_steps``.
 
         Raises:
             PhaseError: for a row of another shape, or with numbers that are not finite.
@@ -193,7 +194,7 @@ class Observer:
         """The answer of :func:`infer` for the rows seen so far, with as much effort as it takes.
 
         Returns:
-            a dict as of :func:`infer`, without ``details``.
+            a dict as of :func:`infer`, without ``details`` and ``watched_steps``.
         """
         return _answer(self._native.inference())
 

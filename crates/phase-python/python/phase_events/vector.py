@@ -11,7 +11,7 @@ from gymnasium.vector.utils import batch_space
 
 from . import _native
 from ._check import MOST_STEPS, as_action, choice, seed_of, whole
-from ._native import ACTIONS, OBSERVATION_SIZE, PhaseError
+from ._native import ACTIONS, MOST_THREADS, OBSERVATION_SIZE, PhaseError
 from .env import (
     ENGINES,
     STEPS_PER_SECOND,
@@ -33,8 +33,6 @@ MOST_WORLDS = 65_536
 """The greatest number of worlds. Each has two observations, of some 2.5 kB."""
 MOST_POOL = 1_000_000
 """The greatest number of different scenes."""
-MOST_THREADS = 1024
-"""The greatest number of threads."""
 AUTORESETS = {
     "next_step": AutoresetMode.NEXT_STEP,
     "same_step": AutoresetMode.SAME_STEP,

@@ -24,6 +24,8 @@ use watch::{Watched, watch};
 
 /// The value of the field `format` of an observer's course.
 const OBSERVER_FORMAT: &str = "phase-observer/1";
+/// States of the beliefs of an event that are shown at most; each has some 150 bytes.
+const MOST_STATES: usize = 1_000_000;
 
 /// Videos or pictures of events.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -151,6 +153,11 @@ impl Rendering {
             _ if agents.is_empty() => Vec::new(),
             Some(simulation) => {
                 let settings = self.settings(id, simulation)?;
+                self.check_memory(
+                    id,
+                    settings.minds.particles(),
+                    agents.len() * (simulation.event.steps.len() + 1),
+                )?;
                 agents.into_iter().map(|agent| minds(simulation, agent, &palette, &settings)).collect()
             }
             None => return Err(self.unsimulated(id)),
@@ -190,6 +197,17 @@ impl Rendering {
             RunError::Write(error) => RunError::Output(error),
             other => other,
         })
+    }
+
+    /// Checks that beliefs do not fill the memory: so many particles at so many times.
+    fn check_memory(&self, id: &str, particles: usize, times: usize) -> Result<(), RunError> {
+        if particles.saturating_mul(times) <= MOST_STATES {
+            return Ok(());
+        }
+        let file = self.events.display();
+        let rule = format!("--belief needs all beliefs at once, at most {MOST_STATES} states");
+        let found = format!("not {particles} (settings.minds.particles) at {times} times");
+        Err(RunError::Usage(format!("{file}: event {id}: {rule}, {found}")))
     }
 
     /// An event that was not simulated does not contain its agents' beliefs.

@@ -11,8 +11,11 @@
 //! Players press keys at random, or are minds that see what the server tells their agents. Printed as JSON:
 //! how late steps arrived, in milliseconds after the time at which they were due. A room's schedule begins
 //! with the step that came earliest relative to its number, so lateness includes the server, the sockets and
-//! the players' own waiting for a processor. Also the resident memory of the server and all players, which
-//! are one program, each ten seconds.
+//! the players' own waiting for a processor. Also the resident memory of the server each ten seconds, and the
+//! processor time that it took meanwhile.
+//!
+//! The server, the players and the clients that do not behave are a process each. The last have the lowest
+//! priority, for elsewhere they would not share a processor with the server.
 
 mod client;
 mod mind;
@@ -27,10 +30,11 @@ use phase_serve::{Server, ServerSettings};
 use serde_json::json;
 use std::{
     error::Error,
-    sync::{
-        Arc,
-        atomic::{AtomicBool, Ordering},
-    },
+    io::{BufRead as _, BufReader, Read as _},
+    net::SocketAddr,
+    path::Path,
+    process::{Child, Command, Stdio},
+    sync::Arc,
     time::{Duration, Instant},
 };
 
@@ -76,17 +80,83 @@ struct Options {
     /// Beside them, clients of each kind that do not behave
     #[arg(long, default_value_t = 0, value_parser = value_parser!(u16).range(0..=250))]
     misbehaving: u16,
+    /// Be the server alone
+    #[arg(long, hide = true)]
+    server: bool,
+    /// Be the clients that do not behave, of the server at this address
+    #[arg(long, hide = true, num_args = 2, value_names = ["ADDRESS", "TOKEN"])]
+    crowd: Option<Vec<String>>,
+}
+
+/// A process that does its part until its standard input is closed.
+struct Part(Child);
+
+impl Part {
+    /// This program again, with its options and others.
+    fn start(program: &mut Command, more: &[&str]) -> std::io::Result<Self> {
+        program.args(std::env::args_os().skip(1)).args(more).stdin(Stdio::piped()).stdout(Stdio::piped());
+        program.spawn().map(Self)
+    }
+
+    /// The first line that it prints.
+    fn line(&mut self) -> Result<String, Box<dyn Error>> {
+        let mut line = String::new();
+        BufReader::new(self.0.stdout.take().ok_or("it prints once")?).read_line(&mut line)?;
+        Ok(line)
+    }
+}
+
+impl Drop for Part {
+    fn drop(&mut self) {
+        drop(self.0.stdin.take());
+        let _ = self.0.wait();
+    }
+}
+
+/// Waits until the standard input is closed.
+fn asked_to_end() {
+    let _ = std::io::stdin().read_to_end(&mut Vec::new());
 }
 
 fn main() -> Result<(), Box<dyn Error>> {
     let options = Options::parse();
-    let folder = tempfile::tempdir()?;
     let mut scenes = Vec::new();
     for (seed, kind) in (0..).zip(EventKind::ALL) {
         scenes.push(Item { source: kind.name().into(), scene: sample_named(Some(kind.name()), None, seed)? });
     }
     let mut game = GameSettings::default();
     game.simulation.minds = game.simulation.minds.with_simulations(options.simulations);
+    if options.server {
+        return serve(&options, scenes, game);
+    }
+    let runtime = tokio::runtime::Builder::new_multi_thread().enable_all().build()?;
+    if let Some([address, admin]) = options.crowd.as_deref() {
+        let address = address.parse()?;
+        let _entered = runtime.enter();
+        misbehaving::start(options.misbehaving, address, admin);
+        asked_to_end();
+        return Ok(());
+    }
+    let own = std::env::current_exe()?;
+    let mut server = Part::start(&mut Command::new(&own), &["--server"])?;
+    let line = server.line()?;
+    let (address, admin) = line.trim_end().split_once(' ').ok_or("the server did not start")?;
+    let crowd = || match options.misbehaving {
+        0 => Ok(None),
+        _ => Part::start(Command::new("nice").args(["-n", "19"]).arg(&own), &["--crowd", address, admin])
+            .map(Some),
+    };
+    let players = options.players == Players::Minds;
+    let shared = Arc::new(Shared::new(scenes, game.simulation.minds, players));
+    let measured = play(&options, address.parse()?, admin, &shared, server.0.id(), crowd);
+    let measured = runtime.block_on(measured)?;
+    println!("{}", report(&options, measured));
+    Ok(())
+}
+
+/// Is the server, and prints its address and the token of the person in charge.
+fn serve(options: &Options, scenes: Vec<Item>, game: GameSettings) -> Result<(), Box<dyn Error>> {
+    let folder = tempfile::tempdir()?;
     let settings = ServerSettings {
         listen: ([127, 0, 0, 1], 0).into(),
         host: None,
@@ -100,32 +170,38 @@ fn main() -> Result<(), Box<dyn Error>> {
         game,
         seed: 1,
     };
-    let parameters = game.simulation.minds;
-    let server = Server::bind(settings, scenes[0].clone(), scenes.clone(), None)?;
-    let (address, admin) = (server.address(), server.admin_token().to_owned());
+    let server = Server::bind(settings, scenes[0].clone(), scenes, None)?;
+    println!("{} {}", server.address(), server.admin_token());
     let (stop, stopped) = tokio::sync::oneshot::channel::<()>();
-    let serving = std::thread::spawn(move || {
-        server.run(async {
-            let _ = stopped.await;
-        })
+    std::thread::spawn(move || {
+        asked_to_end();
+        let _ = stop.send(());
     });
-    let shared = Arc::new(Shared::new(scenes, parameters, options.players == Players::Minds));
-    let runtime = tokio::runtime::Builder::new_multi_thread().enable_all().build()?;
-    let (lateness, memory) = runtime.block_on(play(&options, address, &admin, &shared))?;
-    let _ = stop.send(());
-    serving.join().map_err(|_| "the server panicked")??;
-    println!("{}", report(&options, lateness, &memory));
-    Ok(())
+    let until = async {
+        let _ = stopped.await;
+    };
+    Ok(server.run(until)?)
 }
 
-/// Plays for the time asked for; the lateness of each step of each player (ms), and the memory over time
-/// (MiB).
+/// What was measured.
+struct Measured {
+    /// How late each step of each player was (ms).
+    lateness: Vec<f64>,
+    /// The memory of the server over time (MiB).
+    memory: Vec<u64>,
+    /// The share of one processor that the server took.
+    load: f64,
+}
+
+/// Plays for the time asked for, beside the `crowd`.
 async fn play(
     options: &Options,
-    address: std::net::SocketAddr,
+    address: SocketAddr,
     admin: &str,
     shared: &Arc<Shared>,
-) -> Result<(Vec<f64>, Vec<u64>), Box<dyn Error>> {
+    server: u32,
+    crowd: impl FnOnce() -> std::io::Result<Option<Part>>,
+) -> Result<Measured, Box<dyn Error>> {
     let mut clients = Vec::new();
     for _ in 0..options.rooms {
         // As fast as the server lets one address ask.
@@ -144,33 +220,46 @@ async fn play(
     if shared.playing() < clients.len() {
         return Err("the games did not begin".into());
     }
-    let over = Arc::new(AtomicBool::new(false));
-    misbehaving::start(options.misbehaving, address, admin, &over);
+    let crowd = crowd()?;
     shared.measure(true);
-    let mut memory = vec![resident()];
-    let begun = Instant::now();
+    let mut memory = vec![resident(server)];
+    let (begun, before) = (Instant::now(), processor_time(server));
     let all = Duration::from_secs(options.seconds.into());
     while begun.elapsed() < all {
         tokio::time::sleep(BETWEEN.min(all.saturating_sub(begun.elapsed()))).await;
-        memory.push(resident());
+        memory.push(resident(server));
     }
+    let load = (processor_time(server) - before) / begun.elapsed().as_secs_f64();
     shared.measure(false);
-    over.store(true, Ordering::Relaxed);
+    drop(crowd);
     let mut lateness = Vec::new();
     for client in clients {
         lateness.extend(client.await?);
     }
-    Ok((lateness, memory))
+    Ok(Measured { lateness, memory, load })
 }
 
-/// Resident memory of this program (MiB); 0 where the system does not tell it like Linux.
-fn resident() -> u64 {
-    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+fn told(process: u32, file: &str) -> String {
+    std::fs::read_to_string(Path::new("/proc").join(process.to_string()).join(file)).unwrap_or_default()
+}
+
+/// Resident memory of a process (MiB); 0 where the system does not tell it like Linux.
+fn resident(process: u32) -> u64 {
+    let status = told(process, "status");
     let line = status.lines().find_map(|line| line.strip_prefix("VmRSS:"));
     line.and_then(|line| line.trim().trim_end_matches(" kB").parse::<u64>().ok()).unwrap_or_default() / 1024
 }
 
-fn report(options: &Options, mut lateness: Vec<f64>, memory: &[u64]) -> serde_json::Value {
+/// Processor time of a process (s); 0 where the system does not tell it like Linux.
+fn processor_time(process: u32) -> f64 {
+    let stat = told(process, "stat");
+    // After the name, in brackets: fields 3 and on, of which 14 and 15 are times in hundredths.
+    let fields = stat.rsplit_once(')').map_or("", |(_, fields)| fields).split_whitespace();
+    fields.skip(11).take(2).filter_map(|field| field.parse::<f64>().ok()).sum::<f64>() / 100.0
+}
+
+fn report(options: &Options, measured: Measured) -> serde_json::Value {
+    let Measured { mut lateness, memory, load } = measured;
     lateness.sort_by(f64::total_cmp);
     let quantile = |share: f64| {
         let rank = (share * lateness.len() as f64).ceil() as usize;
@@ -180,7 +269,8 @@ fn report(options: &Options, mut lateness: Vec<f64>, memory: &[u64]) -> serde_js
         "rooms": options.rooms, "seconds": options.seconds,
         "players": format!("{:?}", options.players).to_lowercase(),
         "partner": format!("{:?}", options.partner).to_lowercase(),
-        "simulations": options.simulations, "misbehaving": options.misbehaving, "resident_mib": memory,
+        "simulations": options.simulations, "misbehaving": options.misbehaving, "server_mib": memory,
+        "server_processors": (load * 100.0).round() / 100.0,
         "steps_seen": lateness.len(),
         "late_ms": {
             "median": quantile(0.5), "p90": quantile(0.9), "p99": quantile(0.99), "worst": quantile(1.0),

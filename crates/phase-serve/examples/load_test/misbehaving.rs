@@ -3,15 +3,7 @@
 use crate::client;
 use futures_util::SinkExt as _;
 use serde_json::json;
-use std::{
-    error::Error,
-    net::SocketAddr,
-    sync::{
-        Arc,
-        atomic::{AtomicBool, Ordering},
-    },
-    time::Duration,
-};
+use std::{error::Error, net::SocketAddr, time::Duration};
 use tokio::{
     io::AsyncWriteExt as _,
     net::{TcpSocket, TcpStream},
@@ -37,16 +29,16 @@ enum Kind {
     Deaf,
 }
 
-/// So many clients of each kind, until `over`. The last two have a room, which they never play in.
-pub(crate) fn start(count: u16, address: SocketAddr, admin: &str, over: &Arc<AtomicBool>) {
+/// So many clients of each kind, until the runtime ends. The last two have a room, which they never play in.
+pub(crate) fn start(count: u16, address: SocketAddr, admin: &str) {
     for k in 0..count {
         for (kind, last) in [(Kind::Half, 1), (Kind::Silent, 2), (Kind::Pings, 3), (Kind::Deaf, 4)] {
-            let (over, admin) = (Arc::clone(over), admin.to_owned());
+            let admin = admin.to_owned();
             tokio::spawn(async move {
                 let [_, low] = k.to_be_bytes();
                 let from = [127, 0, 100 + last, low.max(1)];
                 let mut token = None;
-                while !over.load(Ordering::Relaxed) {
+                loop {
                     if matches!(kind, Kind::Pings | Kind::Deaf) && token.is_none() {
                         let opened = client::open_room(address, &admin, "human").await;
                         token = opened.ok().and_then(|tokens| tokens.into_iter().next());

@@ -15,7 +15,7 @@ use axum::{
     routing::{any, get, post},
 };
 use phase_game::{Player, View};
-use phase_model::AgentId;
+use phase_model::{AgentId, json::parse_as};
 use serde::Deserialize;
 use serde_json::{Value, json};
 use std::{sync::Arc, time::Instant};
@@ -60,8 +60,9 @@ async fn create(
         let sentence = "too many rooms were opened from here; wait a minute";
         return Err(ApiError::new(StatusCode::TOO_MANY_REQUESTS, sentence));
     }
-    let asked: Asked = serde_json::from_slice(&body)
-        .map_err(|error| ApiError::bad(format!("not a wish for a room: {error}")))?;
+    let wrong = |error: &dyn core::fmt::Display| ApiError::bad(format!("not a wish for a room: {error}"));
+    let text = core::str::from_utf8(&body).map_err(|error| wrong(&error))?;
+    let asked: Asked = parse_as(text).map_err(|error| wrong(&error))?;
     let own = match asked.agent {
         Some(0) => AgentId::ZERO,
         Some(1) => AgentId::ONE,

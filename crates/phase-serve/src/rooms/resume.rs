@@ -7,6 +7,7 @@
 use super::{Listed, Rooms, journal_file::JournalFile, lock};
 use crate::log;
 use core::time::Duration;
+use phase_files::{FileError, regular};
 use phase_game::{
     JournalError, Room, Round,
     journal::{Entry, entries, is_over},
@@ -14,7 +15,6 @@ use phase_game::{
 use phase_model::path::RelativePath;
 use std::{
     collections::BTreeSet,
-    fs,
     path::{Path, PathBuf},
     sync::Arc,
 };
@@ -27,10 +27,8 @@ const LARGEST_JOURNAL: u64 = 256 * 1024 * 1024;
 /// Why a game does not go on.
 #[derive(Debug, Error)]
 enum ResumeError {
-    #[error("cannot be read")]
-    Unreadable(#[from] std::io::Error),
-    #[error("is larger than {LARGEST_JOURNAL} bytes")]
-    Large,
+    #[error(transparent)]
+    Unreadable(#[from] FileError),
     #[error(transparent)]
     Journal(#[from] JournalError),
     #[error("has the room {0:?}, which is not the name of the file")]
@@ -92,10 +90,8 @@ fn tell(path: &Path, source: ResumeError) {
 /// Reads a journal: scenes that were played before count as given, and a game that is not over is put into
 /// the table.
 fn look(rooms: &Arc<Rooms>, path: &Path) -> Result<Option<Open>, ResumeError> {
-    if fs::metadata(path)?.len() > LARGEST_JOURNAL {
-        return Err(ResumeError::Large);
-    }
-    let text = String::from_utf8_lossy(&fs::read(path)?).into_owned();
+    let bytes = regular::bytes_within(path, LARGEST_JOURNAL)?;
+    let text = String::from_utf8_lossy(&bytes).into_owned();
     let entries = entries(&text)?;
     let Some(Entry::Opened { room, keys, settings, rounds, .. }) = entries.first() else {
         return Err(JournalError::Opening.into());

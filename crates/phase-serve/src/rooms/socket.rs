@@ -9,6 +9,7 @@ use axum::extract::ws::{CloseFrame, Message, Utf8Bytes, WebSocket, close_code};
 use core::time::Duration;
 use futures_util::{SinkExt as _, StreamExt as _, stream::SplitSink};
 use phase_game::{FromPlayer, ToPlayer};
+use phase_model::json::parse_as;
 use serde::Deserialize;
 use std::sync::{
     Arc,
@@ -61,7 +62,7 @@ pub(super) async fn play(rooms: Arc<Rooms>, mut socket: WebSocket, stranger: Gue
     let introduced = async {
         match socket.recv().await {
             Some(Ok(Message::Text(text))) => {
-                let Introduction::Join { token } = serde_json::from_str(&text).ok()?;
+                let Introduction::Join { token } = parse_as(&text).ok()?;
                 Some(token)
             }
             _ => None,

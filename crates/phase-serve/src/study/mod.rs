@@ -6,7 +6,7 @@ mod video;
 
 use crate::error::{ApiError, ServeError};
 use axum::{Router, routing::get};
-use phase_files::{WriteError, private};
+use phase_files::{WriteError, private, regular};
 use phase_study::{
     config::StudyConfig,
     forms::Forms,
@@ -15,7 +15,6 @@ use phase_study::{
 };
 use std::{
     collections::BTreeMap,
-    fs,
     path::{Path, PathBuf},
     sync::{Arc, Mutex, PoisonError},
     time::{SystemTime, UNIX_EPOCH},
@@ -79,9 +78,8 @@ impl Studies {
 impl Running {
     fn open(file: &Path, folder: &Path) -> Result<Self, ServeError> {
         let wrong = |rule: String| ServeError::Study { file: file.to_owned(), rule };
-        let read = |source| ServeError::Read { path: file.to_owned(), source };
         let forms = Forms::included().map_err(|error| wrong(error.to_string()))?;
-        let bytes = fs::read(file).map_err(read)?;
+        let bytes = regular::bytes(file)?;
         let config = StudyConfig::read(&bytes, &forms).map_err(|error| wrong(error.to_string()))?;
         let base = file.parent().unwrap_or_else(|| Path::new("")).to_owned();
         if let Some((_, video)) = config.videos().find(|(_, video)| !base.join(video).is_file()) {

@@ -8,6 +8,7 @@ use axum::{
     response::{IntoResponse as _, Response},
 };
 use futures_util::stream;
+use phase_files::regular;
 use std::{
     fs::File,
     io::{self, Read as _, Seek as _, SeekFrom},
@@ -34,12 +35,11 @@ pub(super) async fn video(
     let file = name.strip_suffix(".mp4").and_then(|name| running.videos.get(name));
     let file = file.cloned().ok_or_else(ApiError::missing)?;
     let opened = tokio::task::spawn_blocking(move || {
-        let file = File::open(file)?;
-        let length = file.metadata()?.len();
-        Ok::<_, io::Error>((file, length))
+        let opened = regular::open(&file).map_err(|error| ApiError::failed(&error))?;
+        let about = opened.metadata().map_err(|error| ApiError::failed(&error))?;
+        Ok::<_, ApiError>((opened, about.len()))
     });
-    let opened = opened.await.map_err(|error| ApiError::failed(&error))?;
-    let (mut file, length) = opened.map_err(|error| ApiError::failed(&error))?;
+    let (mut file, length) = opened.await.map_err(|error| ApiError::failed(&error))??;
     let asked = headers.get(header::RANGE).and_then(|value| value.to_str().ok());
     let (status, part) = match asked.map_or(Asked::Whole, |asked| range(asked, length)) {
         Asked::Whole => (StatusCode::OK, Part { from: 0, length }),

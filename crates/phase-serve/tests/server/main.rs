@@ -52,6 +52,7 @@ fn rubbish_is_refused_in_a_sentence() {
         r#"{"partner":"robot"}"#,
         r#"{"partner":"human","agent":2}"#,
         r#"{"partner":"human","x":1}"#,
+        r#"{"partner":"human","partner":"mind"}"#,
     ] {
         let answer = server.ask("POST", "/api/rooms", &[], body);
         assert_eq!(answer.status, 400, "{body}");

@@ -1,6 +1,6 @@
 //! Videos in parts, and what the person in charge downloads.
 
-use crate::support::{Site, answer, ask, begin, step, try_ask, write_study};
+use crate::support::{Site, answer, ask, begin, bind, step, try_ask, write_study};
 use serde_json::json;
 use std::{collections::BTreeMap, fs, io::Read as _};
 
@@ -34,6 +34,29 @@ fn videos_come_whole_and_in_parts() {
     {
         assert_eq!(ask(site.address, "GET", other, None, None).status, 404, "{other}");
     }
+}
+
+/// A pipe in place of a study or of a video would keep a request waiting for ever.
+#[cfg(unix)]
+#[test]
+fn pipes_are_no_files() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let study = write_study(folder.path(), 1, 1);
+    let site = Site::start(folder.path(), &[study]);
+    let (_, stage) = begin(site.address, "p1");
+    let path = format!("/study/pilot/{}", stage["video"].as_str().expect("an address"));
+    let pipe = |path: &std::path::Path| {
+        let made = std::process::Command::new("mkfifo").arg(path).status();
+        assert!(made.expect("mkfifo").success());
+    };
+    let video = folder.path().join("videos/0.mp4");
+    fs::remove_file(&video).expect("a video");
+    pipe(&video);
+    assert_eq!(ask(site.address, "GET", &path, None, None).status, 500);
+    let other = folder.path().join("other.json");
+    pipe(&other);
+    let refused = bind(&folder.path().join("another"), &[other]).expect_err("a pipe").to_string();
+    assert!(refused.contains("other.json"), "{refused}");
 }
 
 #[test]

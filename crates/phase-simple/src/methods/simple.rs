@@ -2,8 +2,9 @@
 
 use super::variants::{VARIANTS, Variant};
 use crate::{
-    AlternativeAgents, Cues, ForecastSettings, Guidance, Guide, ImaginedAgents, Inference, InferenceSettings,
-    MindPosterior, Models, ModelsError, Observer, ObserverError, PreparedEvent, futures, infer,
+    AlternativeAgents, Cues, ForecastSettings, Guidance, Guide, ImaginedAgents, Inference, InferenceError,
+    InferenceSettings, MindPosterior, Models, ModelsError, Observer, ObserverError, PreparedEvent, futures,
+    infer,
 };
 use core::ops::ControlFlow;
 use phase_event::{
@@ -11,7 +12,6 @@ use phase_event::{
 };
 use phase_minds::{MindKind, Recorder};
 use phase_model::Judgement;
-use phase_pomcp::PomcpError;
 use serde_json::{Value, json};
 use std::sync::Arc;
 
@@ -134,13 +134,13 @@ impl Simple {
     /// Infers what explains a prepared event; `None` if `tick` cancelled it.
     ///
     /// # Errors
-    /// Invalid parameters of the agents' search.
+    /// [`InferenceError`].
     pub fn infer(
         &self,
         prepared: &PreparedEvent,
         seed: u64,
         tick: &mut dyn FnMut() -> ControlFlow<()>,
-    ) -> Result<Option<Inference>, PomcpError> {
+    ) -> Result<Option<Inference>, InferenceError> {
         let cues = Cues { strengths: &self.models.strengths, guide: self.guide() };
         infer(prepared, &cues, seed, &self.settings, tick)
     }

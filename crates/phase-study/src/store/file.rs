@@ -2,11 +2,11 @@
 
 use super::{PATIENCE, StoreError, StoreProblem, Writing, identify};
 use crate::record::Rater;
+use phase_files::regular;
 use rusqlite::{Connection, ErrorCode, OpenFlags, TransactionBehavior};
 use std::{
     ffi::OsString,
     fmt::Write as _,
-    fs::File,
     io::{self, Read as _},
     path::{Path, PathBuf},
 };
@@ -125,7 +125,7 @@ fn beside(path: &Path, ending: &str) -> PathBuf {
 /// have one; whoever opens it says why.
 fn missing_log(path: &Path) -> Option<PathBuf> {
     let mut head = Vec::new();
-    File::open(path).and_then(|file| file.take(20).read_to_end(&mut head)).ok()?;
+    regular::open(path).ok()?.take(20).read_to_end(&mut head).ok()?;
     let log = beside(path, "-wal");
     (head.get(18..20) == Some(&HAS_LOG[..]) && is_nothing(&log)).then_some(log)
 }

@@ -5,6 +5,7 @@ use crate::{
     question::Responses,
     record::{Departure, GivenAnswer, Rater, Trial},
 };
+use phase_model::json::parse_as;
 use rusqlite::{OptionalExtension, Row};
 use std::collections::BTreeMap;
 
@@ -117,7 +118,7 @@ impl Writing<'_> {
         let number: i64 = self.get(row, 0)?;
         let number = number.unsigned_abs();
         let parameters: Option<String> = self.get(row, 2)?;
-        let parameters = parameters.map_or_else(|| Ok(BTreeMap::new()), |text| serde_json::from_str(&text));
+        let parameters = parameters.map_or_else(|| Ok(BTreeMap::new()), |text| parse_as(&text));
         let departure: Option<String> = self.get(row, 3)?;
         let departure = match departure.as_deref() {
             None => None,
@@ -152,6 +153,6 @@ impl Writing<'_> {
     }
 
     fn answer(&self, number: u64, text: &str) -> Result<Responses, StoreError> {
-        serde_json::from_str(text).map_err(|error| self.damaged(number, error.to_string()))
+        parse_as(text).map_err(|error| self.damaged(number, error.to_string()))
     }
 }
