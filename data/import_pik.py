@@ -160,7 +160,7 @@ def self_test(out):
         raise AssertionError(f"{bad!r} was loaded")
     if out:
         write(events, out)
-    print(f"self-test passed: {len(events)} made-up recordings")
+    tell(f"self-test passed: {len(events)} made-up recordings")
 
 
 def run(arguments):
@@ -181,7 +181,7 @@ def main():
     add_angles_option(parser)
     arguments = parser.parse_args()
     if arguments.self_test:
-        return self_test(arguments.out)
+        return main_of(self_test, arguments.out)
     if not arguments.files or not arguments.out:
         parser.error("give recordings and --out, or --self-test")
     main_of(run, arguments)

@@ -237,7 +237,9 @@ def ask(script, path, *arguments):
 
 
 def save(content, path):
-    """A file that is there whole or not at all."""
+    """A file that is there whole or not at all. Devices and pipes stay what they are."""
+    if os.path.exists(path) and not os.path.isfile(path) or is_descriptor(path):
+        raise Failure(f"{path}: cannot be written: what has this name is no regular file")
     line = json.dumps(content, allow_nan=False) + "\n"
     part = None
     try:
@@ -253,6 +255,11 @@ def save(content, path):
         if part and os.path.exists(part):
             os.unlink(part)
         raise Failure(f"{path}: cannot be written: {error.strerror}") from error
+
+
+def is_descriptor(path):
+    """Whether a path is the name of something that this process has open, such as /dev/stdout."""
+    return os.path.islink(path) and os.fspath(os.readlink(path)).startswith("/proc")
 
 
 def is_reading(arguments):

@@ -103,13 +103,16 @@ impl AtomicFile {
     /// Creates the temporary file beside the path under which it is to appear.
     ///
     /// # Errors
-    /// If no file can be created there.
+    /// If no file can be created there, or something else than a regular file has its name: to a device or a
+    /// pipe nothing is written whole or not at all, and a file in its place would take it from all others.
     pub fn create(path: &Path) -> Result<Self, WriteError> {
         Self::create_with(path, OpenOptions::new())
     }
 
     fn create_with(path: &Path, options: OpenOptions) -> Result<Self, WriteError> {
-        match fault::step().and_then(|()| create_locked(path, options)) {
+        let created =
+            replaceable(path).and_then(|()| fault::step()).and_then(|()| create_locked(path, options));
+        match created {
             Ok((part, file)) => Ok(Self { path: path.to_owned(), part, writer: Some(BufWriter::new(file)) }),
             Err(source) => Err(error(path, source)),
         }
@@ -167,6 +170,16 @@ impl Drop for AtomicFile {
 #[must_use]
 pub fn is_part(name: &str) -> bool {
     name.starts_with('.') && name.ends_with(PART_SUFFIX)
+}
+
+/// Whether a file may take a name: nothing has it, or a regular file, or a link to one.
+fn replaceable(path: &Path) -> io::Result<()> {
+    // Standard output may be a regular file, but its name is not that file's.
+    let is_descriptor = fs::read_link(path).is_ok_and(|target| target.starts_with("/proc"));
+    if is_descriptor || fs::metadata(path).is_ok_and(|about| !about.is_file()) {
+        return Err(io::Error::other("what has this name is no regular file"));
+    }
+    Ok(())
 }
 
 /// Creates the temporary file of a path, and locks it. Between its creation and its lock [`remove_abandoned`]

@@ -8,6 +8,9 @@ use crate::{
 };
 use thiserror::Error;
 
+/// A body whose speed was limited may have a little more, by rounding.
+const ROUNDING: f32 = 1.0001;
+
 /// A rule that a scene violates. The text names the field and the rule.
 #[derive(Clone, PartialEq, Debug, Error)]
 pub enum SceneError {
@@ -118,7 +121,7 @@ impl Scene {
                 return Err(SceneError::Angle { field, angle: body.angle });
             }
             let (speed, spin) = (body.velocity.length(), body.angular_velocity);
-            if speed > MAX_SPEED || spin.abs() > MAX_SPIN {
+            if speed > MAX_SPEED * ROUNDING || spin.abs() > MAX_SPIN * ROUNDING {
                 return Err(SceneError::Fast { field, speed, spin });
             }
             if !arena::contains(body.position) {

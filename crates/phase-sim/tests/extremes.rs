@@ -3,7 +3,7 @@
 use phase_event::{Event, Recording, from_json, to_json};
 use phase_model::{
     AGENT_COUNT, Action, Body, EventKind, Scene, Vec2,
-    physics::MAX_ANGLE,
+    physics::{MAX_ANGLE, MAX_SPEED},
     random::{Purpose, stream},
 };
 use phase_sim::{Engine, Simulation, SimulationSettings, replay};
@@ -18,9 +18,10 @@ fn place() -> impl Strategy<Value = Vec2> {
     (side(6.0, 26.0), side(2.0, 22.0)).prop_map(|(x, y)| Vec2::new(x, y))
 }
 
-/// Ordinary numbers, large ones, and those at the end of what there is.
+/// Ordinary numbers, and those up to what engines move, of two components together.
 fn speed() -> impl Strategy<Value = f32> {
-    prop_oneof![-20.0..20.0f32, -1e4..1e4f32, prop::num::f32::NORMAL, Just(f32::MAX), Just(f32::MIN)]
+    let most = MAX_SPEED * core::f32::consts::FRAC_1_SQRT_2;
+    prop_oneof![-20.0..20.0f32, -most..=most, Just(most), Just(-most)]
 }
 
 fn body() -> impl Strategy<Value = Body> {

@@ -51,6 +51,13 @@ fn answers_of_others_are_scored() {
     // Results are valid predictions too.
     write(path, "results.json", &found);
     assert_eq!(score(path, "goals", "results.json")["goal"], found["goal"]);
+    // The name of a method does not decide where anything is written.
+    let far = json!({ "method": "../../far/off", "events": (0..6).map(event).collect::<Vec<_>>() });
+    write(path, "far.json", &far);
+    succeed(path, &["eval", "goals", "--predictions", "far.json", "--events", "events.json"]);
+    assert!(path.join("out/eval/goals-..-..-far-off-events/results.json").is_file());
+    let written: Vec<_> = fs::read_dir(path.join("out")).expect("a folder").collect();
+    assert_eq!(written.len(), 1, "{written:?}");
     write(path, "fewer.json", &json!({ "events": (1..6).map(event).collect::<Vec<_>>() }));
     let sentence = refuse(path, &["eval", "goals", "--predictions", "fewer.json", "--events", "events.json"]);
     assert!(sentence.contains("fewer.json") && sentence.contains("event-0"), "{sentence}");

@@ -15,6 +15,17 @@ fn what_the_importer_writes_is_read() {
         return;
     };
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    #[cfg(unix)]
+    {
+        // What is no regular file is not replaced by one.
+        let pipe = folder.path().join("pipe");
+        assert!(Command::new("mkfifo").arg(&pipe).status().expect("mkfifo").success());
+        let refused = Command::new("python3").args([script, "--self-test", "--out"]).arg(&pipe).output();
+        let refused = refused.expect("python3");
+        assert_eq!(refused.status.code(), Some(1), "{}", String::from_utf8_lossy(&refused.stderr));
+        assert!(String::from_utf8_lossy(&refused.stderr).contains("no regular file"));
+        assert!(!std::fs::metadata(&pipe).expect("it is there").is_file());
+    }
     let recordings = read(&file).expect("phase-events/1");
     assert_eq!(recordings.len(), 9);
     for recording in recordings {

@@ -58,6 +58,26 @@ fn what_cannot_be_written_is_named_and_leaves_nothing() {
     assert_eq!(names(folder.path()), ["taken"]);
 }
 
+/// A device or a pipe is not replaced by a file, which whoever runs this may be allowed to do.
+#[cfg(unix)]
+#[test]
+fn what_is_no_regular_file_is_not_replaced() {
+    use std::os::unix::fs::{FileTypeExt as _, symlink};
+    let folder = tempfile::tempdir().expect("a folder");
+    let at = |name: &str| folder.path().join(name);
+    let made = std::process::Command::new("mkfifo").arg(at("pipe")).status().expect("mkfifo");
+    assert!(made.success());
+    symlink(at("pipe"), at("link")).expect("a link");
+    symlink("/proc/self/fd/1", at("stdout")).expect("a link");
+    for name in ["pipe", "link", "stdout"] {
+        let sentence = atomic::write(&at(name), b"text").expect_err(name).to_string();
+        assert!(sentence.contains("no regular file"), "{sentence}");
+        assert!(fs::symlink_metadata(at(name)).is_ok_and(|about| !about.is_file()), "{name}");
+    }
+    assert!(fs::metadata(at("pipe")).expect("there").file_type().is_fifo());
+    assert_eq!(names(folder.path()), ["link", "pipe", "stdout"]);
+}
+
 #[test]
 fn removing_what_is_not_there_is_fine() {
     let folder = tempfile::tempdir().expect("a folder");

@@ -56,6 +56,7 @@ class Mind:
         if self._parameters is not None:
             _native.Mind.check(self._parameters)
         self._mind = None
+        agent, seed = whole("agent", agent, 0, 1), seed_of(seed)
         if scene is not None:
             self.reset(scene, agent, seed)
 

@@ -289,9 +289,13 @@ fn no_events(out: &Path) -> RunError {
     RunError::Usage(format!("{}: there are no events to sum up", out.display()))
 }
 
+/// A folder in `out/eval`. The name of a method may be that of a file of predictions, which does not decide
+/// where anything is written: what may mean something in a path becomes `-`.
 fn default_folder<T: Task>(task: &T, input: &Input, shard: Option<(usize, usize)>) -> PathBuf {
     let shard = shard.map_or_else(String::new, |(number, of)| format!("-shard{number}of{of}"));
-    Path::new("out/eval").join(format!("{}-{}-{}{shard}", T::NAME, task.answers().name.as_str(), input.name))
+    let name = format!("{}-{}-{}{shard}", T::NAME, task.answers().name.as_str(), input.name);
+    let plain = |letter: char| if letter.is_alphanumeric() || "-_.".contains(letter) { letter } else { '-' };
+    Path::new("out/eval").join(name.chars().map(plain).collect::<String>())
 }
 
 fn text_of(results: &Value) -> String {

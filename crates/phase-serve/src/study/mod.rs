@@ -86,6 +86,10 @@ impl Running {
             return Err(wrong(format!("there is no video {}", base.join(video).display())));
         }
         let path = folder.join(format!("{}.sqlite", config.name));
+        if path.exists() {
+            // To open a pipe would wait for whoever reads it.
+            regular::open(&path)?;
+        }
         // What the database makes beside it has the same rights.
         let made = private::options().append(true).create(true).open(&path);
         made.map_err(|source| WriteError { path: path.clone(), action: "create", source })?;
