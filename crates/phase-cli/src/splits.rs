@@ -6,7 +6,7 @@ use phase_dataset::{
     split_list::SplitList,
     splits::{self, Rule},
 };
-use phase_files::FileError;
+use phase_files::{FileError, told};
 use phase_runs::source::items_and_splits;
 use serde_json::json;
 use std::path::PathBuf;
@@ -64,7 +64,7 @@ pub fn run(arguments: &Splits, context: &Context) -> Result<(), CliError> {
         })
     };
     let value = json!({
-        "events": items.len(), "split": arguments.make, "rules": rules.iter().map(each).collect::<Vec<_>>(),
+        "events": items.len(), "split": arguments.make.as_deref().map(told), "rules": rules.iter().map(each).collect::<Vec<_>>(),
     });
     arguments.output.print(text, &value)?;
     match rules.iter().filter(|rule| !rule.met()).count() {
