@@ -110,6 +110,7 @@ def test_an_observer_ends_where_inference_does(event):
         pushed = observer.push(row)
         assert sum(pushed["relation"].values()) == pytest.approx(1)
     at_once = phase.infer(event, seed=0, steps=11)
+    assert at_once["watched_steps"] == 11
     assert observer.inference()["relation"] == at_once["relation"]
     with pytest.raises(phase.PhaseError):
         observer.push(event.trajectory[12][:2])

@@ -70,7 +70,7 @@ fn datasets_are_rendered_as_they_were_made() {
     let mut document: Value = serde_json::from_slice(&fs::read(file).expect("an event")).expect("JSON");
     document["events"][0]["settings"]["minds"]["particles"] = 100_000.into();
     fs::write(path.join("many.json"), document.to_string()).expect("written");
-    let refused = refuse(path, &["render", "many.json", "--belief", "both", "--out", "many"]);
+    let refused = refuse(path, &["render", "many.json", "--quiet", "--belief", "both", "--out", "many"]);
     assert!(refused.contains("at most 1000000 states"), "{refused}");
     let (alone, together) = (video("1", "alone"), video("2", "together"));
     assert_eq!(names(&path.join("alone")), ["demo-0000.belief-both.mp4", "demo-0001.belief-both.mp4"]);

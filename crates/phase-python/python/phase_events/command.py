@@ -159,7 +159,7 @@ def evaluate(
                 raise PhaseError("ratings are of relations, which only the task goals is about")
             options.append(f"--ratings={path_of(ratings)}")
         if jobs is not None:
-            options.append(f"--jobs={whole('jobs', jobs, 1, MOST_JOBS)}")
+            options.append(f"--jobs={whole('jobs', jobs, 1, MOST_THREADS)}")
 
         def score(given, name, argument, kept):
             """The results of a method or of answers."""
