@@ -64,7 +64,8 @@ pub fn run(arguments: &Splits, context: &Context) -> Result<(), CliError> {
         })
     };
     let value = json!({
-        "events": items.len(), "split": arguments.make.as_deref().map(told), "rules": rules.iter().map(each).collect::<Vec<_>>(),
+        "events": items.len(), "split": arguments.make.as_deref().map(told),
+        "rules": rules.iter().map(each).collect::<Vec<_>>(),
     });
     arguments.output.print(text, &value)?;
     match rules.iter().filter(|rule| !rule.met()).count() {

@@ -102,9 +102,9 @@ pub enum SceneError {
 
 impl Scene {
     /// Checks everything a scene must satisfy to be simulated: finite starts inside the arena, angles up to
-    /// [`MAX_ANGLE`], no body faster than engines move it, goals about entities that exist, at most one social agent, with a goal derived from the
-    /// other's. Overlapping starts are valid: the physics pushes the bodies apart, and some measured
-    /// recordings begin like this.
+    /// [`MAX_ANGLE`], no body faster than engines move it, goals about entities that exist, at most one
+    /// social agent, with a goal derived from the other's. Overlapping starts are valid: the physics pushes
+    /// the bodies apart, and some measured recordings begin like this.
     ///
     /// # Errors
     /// The first rule that is violated.

@@ -143,7 +143,8 @@ pub struct InversePlanningSettings {
     /// ε, the lapse rate: probability of a uniformly random action instead of the policy's, 0 to 1.
     #[serde(rename = "slips")]
     pub lapse_rate: f64,
-    /// σ, scale of the residuals (u), above 0 and at most 100: a residual larger by σ divides an action's likelihood by e.
+    /// σ, scale of the residuals (u), above 0 and at most 100: a residual larger by σ divides an action's
+    /// likelihood by e.
     pub tolerance: f64,
     /// κ, inverse temperature of the action likelihood of a step, 0 to 1: one over the integrated
     /// autocorrelation time of the log likelihood ratio of two intents (steps), because what a decision tells
