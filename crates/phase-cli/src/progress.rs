@@ -31,6 +31,10 @@ pub struct Progress {
     events: usize,
     steps_each: usize,
     finished: AtomicUsize,
+    activity: String,
+    /// Scenes that were tried in vain, and when that was last told.
+    tried: AtomicUsize,
+    told: Mutex<Instant>,
 }
 
 /// Progress by steps, where there is no terminal.
@@ -95,7 +99,10 @@ impl Progress {
             bar
         });
         let lines = (!quiet && !terminal && events == 0).then(|| Lines::new(activity, steps));
-        Self { bar, lines, quiet, events, steps_each, finished: AtomicUsize::new(0) }
+        let activity = activity.to_owned();
+        let (finished, tried) = (AtomicUsize::new(0), AtomicUsize::new(0));
+        let told = Mutex::new(Instant::now());
+        Self { bar, lines, quiet, events, steps_each, finished, activity, tried, told }
     }
 
     /// One step of some event is done.
@@ -128,6 +135,27 @@ impl Progress {
     }
 }
 
+impl Progress {
+    /// A scene was tried in vain: the bar counts them, and elsewhere a line does, now and then.
+    pub fn tried(&self) {
+        let tried = 1 + self.tried.fetch_add(1, Ordering::Relaxed);
+        if let Some(bar) = &self.bar {
+            let activity = foreign::message(&self.activity);
+            bar.set_message(format!("{activity}; scenes tried that do not show their label: {tried}"));
+        } else if !self.quiet
+            && let Ok(mut told) = self.told.try_lock()
+            && told.elapsed() >= BETWEEN_LINES
+        {
+            *told = Instant::now();
+            let (finished, events) = (self.finished.load(Ordering::Relaxed), self.events);
+            print_message(format!(
+                "{}: {finished} of {events} done; scenes tried that do not show their label: {tried}",
+                self.activity
+            ));
+        }
+    }
+}
+
 impl phase_runs::listener::Progress for Progress {
     fn steps(&self, count: usize) {
         Self::steps(self, count);
@@ -135,6 +163,10 @@ impl phase_runs::listener::Progress for Progress {
 
     fn event(&self, counted: usize, line: &str) {
         Self::event(self, counted, line);
+    }
+
+    fn tried(&self) {
+        Self::tried(self);
     }
 }
 

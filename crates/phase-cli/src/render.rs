@@ -1,9 +1,8 @@
 //! `render`: events as videos, or as pictures of their key frames.
 
-use crate::{context::Context, error::CliError, interrupt, named::named, output::Output, parallel::Jobs};
+use crate::{context::Context, error::CliError, interrupt, look::LookOptions, output::Output, parallel::Jobs};
 use clap::{Args, ValueEnum, value_parser};
 use phase_model::AgentId;
-use phase_render::PaletteName;
 use phase_runs::render::{Rendered, Rendering, View};
 use serde_json::json;
 use std::path::PathBuf;
@@ -32,10 +31,9 @@ pub struct Render {
     /// Random seed of the observer
     #[arg(long, value_name = "S", default_value_t = 1, requires = "observer")]
     pub seed: u64,
-    /// Colours: as in the paper, or distinguishable with a colour vision deficiency
-    #[arg(long, value_name = "PALETTE", default_value = PaletteName::Paper.name(),
-        value_parser = named(PaletteName::ALL, PaletteName::name))]
-    pub palette: PaletteName,
+    /// Look of the pictures; contact sheets have their own size.
+    #[command(flatten)]
+    pub look: LookOptions,
     /// Instead of a video, one picture of N frames, 1 to 100, evenly spaced over the event
     #[arg(long, value_name = "N", value_parser = value_parser!(u16).range(1..=100))]
     pub contact_sheet: Option<u16>,
@@ -83,7 +81,7 @@ pub fn run(arguments: &Render, context: &Context) -> Result<(), CliError> {
         ids: arguments.id.clone(),
         out: arguments.out.clone(),
         view: arguments.view(),
-        palette: arguments.palette,
+        look: arguments.look.into(),
         contact_sheet: arguments.contact_sheet.map(usize::from),
         threads: arguments.jobs.given(),
     };

@@ -11,7 +11,7 @@ pub struct Stats {
     /// A file in the format phase-events/1, or the folder of a dataset or of simulations
     #[arg(value_name = "FILE|DIR")]
     pub events: PathBuf,
-    /// Also write the figures and plots (SVG) into this folder
+    /// Also write the figures, plots (SVG) and the motion in each video (motion.csv) into this folder
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
     /// Form in which the result is printed.

@@ -93,6 +93,18 @@ impl Composition {
         (covered == events).then_some(slots)
     }
 
+    /// The numbers of events next to this one, below and above, of which no set is incomplete.
+    #[must_use]
+    pub fn whole_sets_around(&self, events: usize) -> (usize, usize) {
+        let (mut slots, mut below, mut above) = (0, 0, 0);
+        while above <= events {
+            below = above;
+            above += self.set(slots).map_or(1, |set| set.stances.len());
+            slots += 1;
+        }
+        (below, above)
+    }
+
     /// The slot of the set with this number, from 0; `None` if the dataset does not consist of sets.
     #[must_use]
     pub fn set(&self, index: usize) -> Option<SetSlot> {

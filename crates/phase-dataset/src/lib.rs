@@ -39,6 +39,7 @@ pub mod croissant;
 pub mod error;
 pub mod event_cache;
 pub mod event_set;
+pub mod form;
 mod ids;
 pub mod labels;
 pub mod manifest;

@@ -3,6 +3,7 @@
 use crate::{
     acceptance::Acceptance,
     event_set::{SetEntry, SetPlace},
+    form::StimulusForm,
     ids,
     splits::{Item, Split},
 };
@@ -54,6 +55,9 @@ pub struct Manifest {
     pub date_published: Option<String>,
     /// Settings of simulation and agents.
     pub settings: Value,
+    /// Length and look of the events, where they are not the usual ones.
+    #[serde(default, skip_serializing_if = "StimulusForm::is_default")]
+    pub form: StimulusForm,
     /// Scenes tried and reasons why most were rejected, by variant; empty where nothing was selected.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub selection: Vec<Acceptance>,

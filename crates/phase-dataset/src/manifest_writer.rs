@@ -3,6 +3,7 @@
 use crate::{
     ExportError,
     acceptance::Acceptance,
+    form::StimulusForm,
     manifest::{DATASET_FORMAT, MANIFEST_FILE, write_digest},
     overview::Overview,
     slot_record::{Records, SlotRecord},
@@ -26,6 +27,8 @@ struct ManifestText<'a, E, S> {
     #[serde(skip_serializing_if = "Option::is_none")]
     date_published: Option<&'a str>,
     settings: &'a Value,
+    #[serde(skip_serializing_if = "StimulusForm::is_default")]
+    form: &'a StimulusForm,
     #[serde(skip_serializing_if = "<[Acceptance]>::is_empty")]
     selection: &'a [Acceptance],
     events: E,
@@ -72,6 +75,7 @@ pub fn write_manifest(
         seed: overview.seed,
         date_published: overview.date_published.as_deref(),
         settings: &overview.settings,
+        form: &overview.form,
         selection: &overview.selection,
         events: Members { records, of: |record: SlotRecord| record.entries, failure: &failure },
         sets: (overview.sets > 0).then_some(Members {

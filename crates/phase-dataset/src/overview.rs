@@ -3,6 +3,7 @@
 
 use crate::{
     acceptance::Acceptance,
+    form::StimulusForm,
     manifest::{EventEntry, Manifest},
     shard::DatasetDescription,
     splits::Split,
@@ -26,6 +27,8 @@ pub struct Overview {
     pub date_published: Option<String>,
     /// Settings of simulation and agents.
     pub settings: Value,
+    /// Length and look of the events.
+    pub form: StimulusForm,
     /// Scenes tried and reasons why most were rejected, by variant; empty where nothing was selected.
     pub selection: Vec<Acceptance>,
     /// Number of events.
@@ -52,6 +55,7 @@ impl Overview {
             seed: whole.seed,
             date_published: whole.date_published.clone(),
             settings: whole.settings.clone(),
+            form: whole.form.clone(),
             selection: Vec::new(),
             events: 0,
             kinds: BTreeMap::new(),
@@ -71,6 +75,7 @@ impl Overview {
             seed: manifest.seed,
             date_published: manifest.date_published.clone(),
             settings: manifest.settings.clone(),
+            form: manifest.form.clone(),
             selection: manifest.selection.clone(),
             events: 0,
             kinds: BTreeMap::new(),

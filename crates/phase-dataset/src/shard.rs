@@ -2,6 +2,7 @@
 
 use crate::{
     ExportError,
+    form::StimulusForm,
     preset::slot_id,
     slot_record::{Records, SlotRecord},
 };
@@ -46,6 +47,9 @@ pub struct DatasetDescription {
     pub generator: String,
     /// Settings of simulation and agents.
     pub settings: Value,
+    /// Length and look of the events, where they are not the usual ones.
+    #[serde(default, skip_serializing_if = "StimulusForm::is_default")]
+    pub form: StimulusForm,
     /// Whether events were selected.
     pub selected: bool,
     /// Whether events have videos.

@@ -38,7 +38,7 @@ pub struct Document {
 
 const STYLE: &str = "body{font:15px/1.5 sans-serif;max-width:75em;margin:2em auto;padding:0 1em;color:#222}\
                      table{border-collapse:collapse;margin:1em 0;display:block;overflow-x:auto}\
-                     th,td{padding:.25em .8em;border-bottom:1px solid #ddd;text-align:left;white-space:nowrap}\
+                     th,td{padding:.25em .8em;border-bottom:1px solid #ddd;text-align:left;vertical-align:top}\
                      th{border-bottom:2px solid #888}svg{max-width:100%;height:auto}";
 
 impl Document {

@@ -16,13 +16,7 @@ pub fn bars(title: &str, unit: &str, rows: &[(String, f64)]) -> String {
     let width = LABELS + BARS + 90;
     let height = TOP + ROW * rows.len() + 12;
     let longest = rows.iter().map(|(_, number)| length(*number)).fold(f64::MIN_POSITIVE, f64::max);
-    let mut svg = format!(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" \
-         viewBox=\"0 0 {width} {height}\" font-family=\"sans-serif\" font-size=\"13\">\n\
-         <rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n\
-         <text x=\"12\" y=\"26\" font-size=\"16\" font-weight=\"bold\">{}</text>\n",
-        escape(title)
-    );
+    let mut svg = head(title, width, height);
     for (k, (name, number)) in rows.iter().enumerate() {
         let y = TOP + ROW * k;
         let long = BARS as f64 * length(*number) / longest;
@@ -44,6 +38,59 @@ pub fn bars(title: &str, unit: &str, rows: &[(String, f64)]) -> String {
         );
     }
     svg + "</svg>\n"
+}
+
+/// A table of shares (0 to 1) as a picture: a row for each label, a column for each answer, and in each cell the
+/// share in per cent on a ground that is darker the greater it is. Shares that are not finite are blank.
+#[must_use]
+pub fn matrix(title: &str, rows: &[String], columns: &[String], shares: &[Vec<f64>]) -> String {
+    const CELL: usize = 44;
+    // Names of columns stand slanted above them.
+    let longest = columns.iter().map(|name| name.chars().count()).max().unwrap_or_default();
+    let top = TOP + 20 + longest * 5;
+    let width = LABELS + CELL * columns.len() + longest * 5 + 20;
+    let height = top + CELL * rows.len() + 12;
+    let mut svg = head(title, width, height);
+    for (k, name) in columns.iter().enumerate() {
+        let (x, y) = (LABELS + CELL * k + CELL / 2, top - 6);
+        let _ = writeln!(svg, "<text transform=\"translate({x} {y}) rotate(-45)\">{}</text>", escape(name));
+    }
+    for (k, (name, row)) in rows.iter().zip(shares).enumerate() {
+        let y = top + CELL * k;
+        let label = LABELS - 8;
+        let _ = writeln!(
+            svg,
+            "<text x=\"{label}\" y=\"{}\" text-anchor=\"end\">{}</text>",
+            y + CELL / 2 + 5,
+            escape(name)
+        );
+        for (k, share) in row.iter().enumerate().filter(|(_, share)| share.is_finite()) {
+            let share = share.clamp(0.0, 1.0);
+            let ink = if share > 0.5 { "white" } else { "black" };
+            let x = LABELS + CELL * k;
+            let _ = writeln!(
+                svg,
+                "<rect x=\"{x}\" y=\"{y}\" width=\"{CELL}\" height=\"{CELL}\" fill=\"#4477aa\" \
+                 fill-opacity=\"{share:.3}\" stroke=\"#cccccc\"/>\
+                 <text x=\"{}\" y=\"{}\" text-anchor=\"middle\" fill=\"{ink}\">{:.0}</text>",
+                x + CELL / 2,
+                y + CELL / 2 + 5,
+                100.0 * share
+            );
+        }
+    }
+    svg + "</svg>\n"
+}
+
+/// The beginning of a drawing: its size, white ground and title.
+fn head(title: &str, width: usize, height: usize) -> String {
+    format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" \
+         viewBox=\"0 0 {width} {height}\" font-family=\"sans-serif\" font-size=\"13\">\n\
+         <rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n\
+         <text x=\"12\" y=\"26\" font-size=\"16\" font-weight=\"bold\">{}</text>\n",
+        escape(title)
+    )
 }
 
 /// An axis.

@@ -57,7 +57,7 @@ pub mod track;
 
 pub use effect::Effect;
 pub use manner::Manner;
-pub use motion::MotionStatistics;
+pub use motion::{MotionStatistics, VideoMotion};
 pub use outcome::GoalOutcome;
 pub use rest::Rest;
 pub use track::Track;

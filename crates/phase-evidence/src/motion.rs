@@ -1,7 +1,10 @@
 //! Motion of an agent: how fast, how far, and how long it was in contact.
 
 use crate::{Track, contact};
-use phase_model::{AgentId, Entity, arena::STEP_SECONDS};
+use phase_model::{
+    AGENT_COUNT, AgentId, Entity, Vec2,
+    arena::{STEP_SECONDS, STEP_VIDEO_SECONDS},
+};
 
 /// Motion of one agent in the first steps of an event.
 #[derive(Clone, PartialEq, Debug, Default)]
@@ -49,4 +52,70 @@ impl MotionStatistics {
 #[must_use]
 pub fn common_steps(a: &Track, b: &Track) -> usize {
     a.steps().min(b.steps())
+}
+
+/// What viewers of a video see move, for matching videos of different conditions. Seconds are those of the video.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct VideoMotion {
+    /// Duration (s).
+    pub seconds: f64,
+    /// Length of each agent's path (u).
+    pub path: [f64; AGENT_COUNT],
+    /// Each agent's mean speed (u/s).
+    pub speed: [f64; AGENT_COUNT],
+    /// The mean magnitude of each agent's acceleration (u/s²), from the change of its velocity between
+    /// steps. The first step, over which a track has a part of the motion only, does not count.
+    pub acceleration: [f64; AGENT_COUNT],
+    /// Mean distance of the two agents' origins (u).
+    pub distance: f64,
+    /// Least distance of the two agents' origins (u).
+    pub least_distance: f64,
+    /// Share of the steps in which the agents touch each other, 0 to 1.
+    pub agents_touch: f64,
+    /// Share of the steps in which each agent touches the other or an object, 0 to 1.
+    pub contact: [f64; AGENT_COUNT],
+}
+
+impl VideoMotion {
+    /// The motion in a whole track; `None` if it has no steps. Contact is judged by outlines alone.
+    #[must_use]
+    pub fn of(track: &Track) -> Option<Self> {
+        let steps = track.steps();
+        if steps == 0 {
+            return None;
+        }
+        let seconds = steps as f64 * STEP_VIDEO_SECONDS;
+        let motion = AgentId::ALL.map(|agent| MotionStatistics::of(track, agent, steps));
+        let path = motion.each_ref().map(|motion| f64::from(motion.path));
+        let [one, other] = AgentId::ALL.map(Entity::Agent);
+        let apart: Vec<f64> = track
+            .states
+            .iter()
+            .map(|state| f64::from(state.position(one).distance(state.position(other))))
+            .collect();
+        let touching = track.states.iter().skip(1);
+        let touching = touching.filter(|state| contact::near(&track.physics, state, one, other)).count();
+        Some(Self {
+            seconds,
+            path,
+            speed: path.map(|path| path / seconds),
+            acceleration: AgentId::ALL.map(|agent| acceleration(track, Entity::Agent(agent))),
+            distance: apart.iter().sum::<f64>() / apart.len() as f64,
+            least_distance: apart.iter().copied().fold(f64::INFINITY, f64::min),
+            agents_touch: touching as f64 / steps as f64,
+            contact: motion.each_ref().map(|motion| f64::from(motion.contact_share().unwrap_or_default())),
+        })
+    }
+}
+
+/// The mean magnitude of an entity's acceleration between steps (u/s² of video); 0 in tracks of less than three
+/// steps.
+fn acceleration(track: &Track, entity: Entity) -> f64 {
+    let places: Vec<Vec2> = track.states.iter().skip(1).map(|state| state.position(entity)).collect();
+    let changes: Vec<f64> = places
+        .windows(3)
+        .map(|three| f64::from((three[2] - three[1] - (three[1] - three[0])).length()))
+        .collect();
+    let mean = changes.iter().sum::<f64>() / changes.len().max(1) as f64;
+    mean / (STEP_VIDEO_SECONDS * STEP_VIDEO_SECONDS)
 }

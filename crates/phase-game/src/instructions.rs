@@ -24,7 +24,7 @@ impl Instructions {
         let whom = names.entity(Entity::Agent(other));
         let yours = match attitudes[agent] {
             Attitude::Neutral => format!("Your goal: {}.", goal(agent)),
-            Attitude::Help => format!("Help the {whom} to reach its goal: {}.", goal(other)),
+            Attitude::Help => format!("Help the {whom} reach its goal: {}.", goal(other)),
             Attitude::Hinder => format!("Keep the {whom} from reaching its goal: {}.", goal(other)),
         };
         let them = format!("The other agent ({})", names.agents[other]);

@@ -16,7 +16,7 @@ pub struct Caption {
     pub cells: Vec<String>,
     /// Text behind the cells. An ellipsis replaces the part that does not fit within [`Style::text_width`].
     pub text: String,
-    /// A pale bar behind the line, as a share of the arena's width: 0 or less for none, 1 for all of it.
+    /// A pale bar below the text, as a share of the arena's width: 0 or less for none, 1 for all of it.
     pub bar: f32,
 }
 
@@ -33,9 +33,12 @@ pub(crate) fn draw(pixmap: &mut Pixmap, style: &Style, font: &SizedFont, caption
     let width = style.text_width();
     let mut top = style.caption_top();
     for caption in captions.iter().take(style.caption_lines as usize) {
-        // The cast turns NaN into 0. The two rows left free tell bars apart.
+        // The cast turns NaN into 0. Text stands on its bar, whose end would otherwise run through it; the two rows
+        // below are free.
         let bar = (caption.bar.clamp(0.0, 1.0) * width as f32).round() as u32;
-        fill(pixmap, (style.margin, top), (bar, height - 2), style.palette.bar);
+        let thickness = (height / 5).max(2);
+        let bar_top = top + height - 2 - thickness;
+        fill(pixmap, (style.margin, bar_top), (bar, thickness), style.palette.bar);
         draw_line(pixmap, style, font, font.baseline(top, height - 2), caption);
         top += height;
     }

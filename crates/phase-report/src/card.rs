@@ -3,6 +3,7 @@
 
 use crate::features::features;
 use phase_dataset::{
+    form::StimulusForm,
     overview::Overview,
     parquet::{self, FOLDER},
     splits::Split,
@@ -10,10 +11,22 @@ use phase_dataset::{
 use phase_model::{EventKind, words};
 
 const PAGE: &str = "| `index.html` | opens in a browser, offline, and shows every video with its labels |\n";
-const VIDEOS: &str = "| `videos/<id>.mp4` | H.264, 20 frames a second, five frames a step |\n\
-     | `videos/metadata.csv` | their labels, for `load_dataset(\"videofolder\", data_dir=\".../videos\")` |\n";
+const VIDEO_TABLE: &str = "| `videos/metadata.csv` | their labels, for `load_dataset(\"videofolder\", data_dir=\".../videos\")` |\n";
 const SET_VIDEOS: &str = "| `videos/<set>.mp4` | the events of a set side by side |\n";
 const SETS: &str = "| `pairs.csv` | where and when every two events of a set part |\n";
+
+/// The line about videos.
+fn videos(form: &StimulusForm) -> String {
+    let StimulusForm { size, palette, frame_rate, .. } = form;
+    let usual = StimulusForm::default();
+    let frames = if *frame_rate == usual.frame_rate { ", five frames a step" } else { "" };
+    let look = if (*size, palette) == (usual.size, &usual.palette) {
+        String::new()
+    } else {
+        format!(", {size} × {size} pixels, palette {palette}")
+    };
+    format!("| `videos/<id>.mp4` | H.264, {frame_rate} frames a second{frames}{look} |\n")
+}
 
 /// The dataset's file for people: what it is, how it was generated, what it contains, and its licence.
 /// `shortcuts` tells what can be predicted without looking at motion, in Markdown.
@@ -58,7 +71,7 @@ pub fn card(overview: &Overview, command: &str, shortcuts: &str) -> String {
          ## Licence\n\nMIT OR Apache-2.0, as the program's.\n",
         front = front_matter(overview),
         page = if has_videos { PAGE } else { "" },
-        videos = if has_videos { VIDEOS } else { "" },
+        videos = if has_videos { videos(&overview.form) + VIDEO_TABLE } else { String::new() },
         set_videos = if has_videos && overview.sets > 0 { SET_VIDEOS } else { "" },
         sets = if overview.sets > 0 { SETS } else { "" },
         preset = overview.preset,

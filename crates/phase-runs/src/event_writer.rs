@@ -5,7 +5,7 @@ use crate::{
     error::RunError,
     interrupt,
     listener::{Listener, Progress},
-    picture::{self, RenderedState},
+    picture::{self, Look, RenderedState},
 };
 use phase_dataset::event_cache::EventCache;
 use phase_event::{Event, Recording};
@@ -16,7 +16,6 @@ use phase_files::{
     measured, run,
 };
 use phase_model::{Relation, Scene};
-use phase_render::Palette;
 use phase_sim::SimulationSettings;
 use serde_json::{Value, json};
 use std::{path::PathBuf, time::Instant};
@@ -28,6 +27,7 @@ pub struct EventWriter {
     folder: PathBuf,
     cache: EventCache,
     progress: Box<dyn Progress>,
+    look: Look,
 }
 
 /// Properties of one event that differ from the other events of its run.
@@ -71,7 +71,14 @@ impl EventWriter {
         let settings_value = settings_value(&settings)?;
         let cache = EventCache::new(&folder.cache(), fingerprint(&settings_value));
         let progress = listener.progress(activity, events, settings.max_steps);
-        Ok(Self { settings, settings_value, folder: folder.path().to_owned(), cache, progress })
+        let look = Look::default();
+        Ok(Self { settings, settings_value, folder: folder.path().to_owned(), cache, progress, look })
+    }
+
+    /// This writer with another look of its videos.
+    #[must_use]
+    pub fn with_look(self, look: Look) -> Self {
+        Self { look, ..self }
     }
 
     /// Produces one event and its files; `None` if it was interrupted. The scene is requested only if the
@@ -124,7 +131,7 @@ impl EventWriter {
         let json = measured::write(&self.folder, &job.json, self.json(job, event)?.as_bytes())?;
         let video = match &job.video {
             Some(path) if fresh || !self.folder.join(path).exists() => {
-                Some(measured::write(&self.folder, path, &video(&job.id, event)?)?)
+                Some(measured::write(&self.folder, path, &video(&job.id, event, &self.look)?)?)
             }
             Some(path) => Some(FileEntry::of(&self.folder, path).map_err(RunError::ReadBack)?),
             None => None,
@@ -135,6 +142,11 @@ impl EventWriter {
     /// An event is done; see [`Progress::event`].
     pub fn finished(&self, counted: usize, line: &str) {
         self.progress.event(counted, line);
+    }
+
+    /// A scene was tried in vain; see [`Progress::tried`].
+    pub fn tried(&self) {
+        self.progress.tried();
     }
 
     fn json(&self, job: &EventJob, event: &Event) -> Result<String, RunError> {
@@ -159,14 +171,14 @@ pub fn settings_value(settings: &SimulationSettings) -> Result<Value, RunError> 
     serde_json::to_value(settings).map_err(|source| RunError::Serialise { what: "settings", source })
 }
 
-/// Draws the video of a simulated event in memory, a frame for each substep.
+/// Draws the video of a simulated event in memory.
 ///
 /// # Errors
 /// As [`picture::video`].
-pub fn video(id: &str, event: &Event) -> Result<Vec<u8>, RunError> {
+pub fn video(id: &str, event: &Event, look: &Look) -> Result<Vec<u8>, RunError> {
     let items = event.frames().map(|&state| RenderedState { state, minds: Vec::new(), observer: None });
     // Events that are generated are short: a video takes a second.
-    let video = picture::video(id, &event.scene.physics(), Palette::PAPER, items, &|| false)?;
+    let video = picture::video(id, &event.scene.physics(), look, items, &|| false)?;
     Ok(video.unwrap_or_default())
 }
 

@@ -3,6 +3,7 @@
 use crate::{
     error::RunError,
     listener::Listener,
+    motion::{MOTION_FILE, Motions},
     shortcuts::{self, audited},
     source::EventInput,
 };
@@ -40,6 +41,7 @@ pub struct EventFigures {
     selection: Vec<Acceptance>,
     /// The shortcut audit: labels that can be predicted without looking at motion.
     audit: Option<Audit>,
+    motions: Motions,
 }
 
 impl EventFigures {
@@ -50,13 +52,14 @@ impl EventFigures {
     /// If the events cannot be used.
     pub fn of(path: &Path, threads: Option<usize>, listener: &dyn Listener) -> Result<Self, RunError> {
         let (statistics, selection) = statistics(path, listener)?;
-        Ok(Self { statistics, selection, audit: audited(path, threads, listener)? })
+        let motions = Motions::of(path, threads, listener)?;
+        Ok(Self { statistics, selection, audit: audited(path, threads, listener)?, motions })
     }
 
     /// The figures for programs.
     #[must_use]
     pub fn value(&self) -> Value {
-        let Self { statistics, selection, audit } = self;
+        let Self { statistics, selection, audit, motions } = self;
         let Statistics { events, lengths, goals, relations, kinds, layouts, .. } = statistics;
         let figure =
             |row: &StatisticsRow| json!({ "figure": row.what, "paper": row.paper, "here": row.ours });
@@ -66,13 +69,14 @@ impl EventFigures {
         json!({
             "events": events, "figures": figures, "lengths": lengths, "goals": goals, "relations": relations,
             "kinds": kinds, "layouts": layouts, "selection": selection, "shortcuts": shortcuts,
+            "motion": motions.value(),
         })
     }
 
     /// The figures for people.
     #[must_use]
     pub fn report(&self) -> String {
-        let Self { statistics, selection, audit } = self;
+        let Self { statistics, selection, audit, motions } = self;
         let mut text = statistics::table(&statistics.figures());
         text += &list("goal", "agents", statistics.goals.iter().map(|(goal, &count)| (goal.clone(), count)));
         text += &list(
@@ -83,19 +87,21 @@ impl EventFigures {
         if !selection.is_empty() {
             text += &format!("\n{}", acceptance::table(selection));
         }
+        text += &motions.table();
         text += &shortcuts::section(audit.as_ref(), statistics.events);
         text
     }
 
-    /// Writes the figures for people and plots of them into a folder, which is created if it is not there.
+    /// Writes the figures for people, plots of them and the table of motion (`motion.csv`) into a folder, which is created if it is not there.
     ///
     /// # Errors
     /// If a file or the folder cannot be written.
     pub fn write(&self, out: &Path) -> Result<(), WriteError> {
-        let Self { statistics, selection, audit } = self;
+        let Self { statistics, selection, audit, motions } = self;
         let failed = |source| WriteError { path: out.to_owned(), action: "create the folder", source };
         fs::create_dir_all(out).map_err(failed)?;
         atomic::write(&out.join("stats.md"), self.report().as_bytes())?;
+        atomic::write(&out.join(MOTION_FILE), motions.to_csv().as_bytes())?;
         let mut lengths: BTreeMap<usize, usize> = BTreeMap::new();
         for (steps, count) in &statistics.lengths {
             *lengths.entry((*steps as f64 * STEP_VIDEO_SECONDS) as usize / LENGTH_STEP).or_default() += count;

@@ -73,6 +73,7 @@ pub mod gen_dataset;
 pub mod interrupt;
 pub mod leaderboard;
 pub mod listener;
+mod motion;
 pub mod parallel;
 pub mod picture;
 pub mod render;

@@ -1,4 +1,4 @@
-//! The interface between a run and whoever started it: notes, details and progress.
+//! The interface between a run and the program that started it: notes, details and progress.
 
 /// Hears from a run while it works. All methods do nothing unless they are implemented.
 ///
@@ -7,7 +7,7 @@ pub trait Listener: Sync {
     /// Something that everybody should know, such as a warning about an event, in one line without its end.
     fn note(&self, _line: &str) {}
 
-    /// Something for who looks closely, such as why a scene was rejected, in one line without its end.
+    /// A detail, such as why a scene was rejected, in one line without its end.
     fn detail(&self, _line: &str) {}
 
     /// Work begins. The returned value is told what is done of it, and dropped at its end.
@@ -49,6 +49,9 @@ pub trait Progress: Send + Sync {
 
     /// An event is done; `counted` of its steps were reported with [`Progress::steps`]; `line` describes it.
     fn event(&self, _counted: usize, _line: &str) {}
+
+    /// A scene was simulated, and does not show what it is to show: another one is tried.
+    fn tried(&self) {}
 }
 
 /// Hears nothing.

@@ -1,13 +1,14 @@
 //! Events as videos and contact sheets in files.
 
 use crate::error::RunError;
+use phase_dataset::form::StimulusForm;
 use phase_event::Event;
 use phase_files::atomic;
-use phase_model::{AgentId, PhysicsConfig, State, arena::FRAMES_PER_SECOND};
+use phase_model::{AgentId, PhysicsConfig, State, arena::FRAMES_PER_SECOND, setting::Setting};
 use phase_perception::CellSet;
 use phase_render::{
-    Annotation, Caption, Course, Frame, Overlay, Palette, RenderError, SceneRenderer, Style, VideoEncoder,
-    contact_sheet, palette::SHARES, side_by_side,
+    Annotation, Caption, Course, Frame, Overlay, Palette, PaletteName, RenderError, SceneRenderer, Style,
+    VideoEncoder, contact_sheet, palette::SHARES, side_by_side,
 };
 use std::path::Path;
 
@@ -17,6 +18,48 @@ pub const SHEET_SIDE: u32 = 320;
 const CAPTION_LINES: u32 = crate::captions::COUNT as u32;
 /// Height of an observer's course, in lines of text.
 const COURSE_LINES: u32 = 4;
+
+/// The look of a video.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Look {
+    /// Its colours.
+    pub palette: Palette,
+    /// Side of the square with the arena (pixels): even, 64 to 2000.
+    pub size: u32,
+    /// Frames a second, 1 to 120.
+    pub frame_rate: u32,
+}
+
+/// Sides of videos (pixels).
+pub const SIZES: Setting = Setting::whole("size", "pixels", 64, 2000);
+/// Frames a second.
+pub const FRAME_RATES: Setting = Setting::whole("frame_rate", "frames a second", 1, 120);
+
+impl Default for Look {
+    /// 480 pixels in the paper's colours, a frame for each substep.
+    fn default() -> Self {
+        Self { palette: Palette::PAPER, size: Style::default().side, frame_rate: FRAMES_PER_SECOND }
+    }
+}
+
+impl Look {
+    /// The look that a dataset's form asks for.
+    ///
+    /// # Errors
+    /// [`RunError::Usage`] if there is no such palette, or a number is out of its range.
+    pub fn of(form: &StimulusForm) -> Result<Self, RunError> {
+        let wrong = |rule: String| RunError::Usage(format!("form of the videos: {rule}"));
+        let palette = PaletteName::ALL.into_iter().find(|palette| palette.name() == form.palette);
+        let palette = palette.ok_or_else(|| wrong(format!("there is no palette {:?}", form.palette)))?;
+        for (setting, found) in [(SIZES, form.size), (FRAME_RATES, form.frame_rate)] {
+            setting.check(f64::from(found)).map_err(|error| wrong(error.to_string()))?;
+        }
+        if !form.size.is_multiple_of(2) {
+            return Err(wrong(format!("`size` must be even, not {}", form.size)));
+        }
+        Ok(Self { palette: palette.palette(), size: form.size, frame_rate: form.frame_rate })
+    }
+}
 
 /// One agent's field of view and belief at one frame.
 #[derive(Clone, Debug)]
@@ -58,6 +101,43 @@ pub struct RenderedState<'a> {
     pub observer: Option<&'a ObserverFrame<'a>>,
 }
 
+/// Items at a frame rate: where that is not the substeps', bodies are moved in straight lines from one substep to
+/// the next, and everything else is that of the earlier one.
+fn at_rate<'a>(
+    items: impl Iterator<Item = RenderedState<'a>>,
+    frame_rate: u32,
+) -> impl Iterator<Item = RenderedState<'a>> {
+    let (rate, substeps) = (u64::from(frame_rate), u64::from(FRAMES_PER_SECOND));
+    let mut items = items.peekable();
+    let mut current = items.next();
+    // Number of the current item, and of the next frame.
+    let (mut at, mut number) = (0, 0);
+    core::iter::from_fn(move || {
+        while number * substeps / rate > at {
+            current = items.next();
+            at += 1;
+        }
+        let mut item = current.clone()?;
+        let share = (number * substeps % rate) as f32 / rate as f32;
+        if share > 0.0 {
+            // Frames between the last substep and what would follow do not exist.
+            item.state = between(&item.state, &items.peek()?.state, share);
+        }
+        number += 1;
+        Some(item)
+    })
+}
+
+/// A state between two others, `share` of the way from the first.
+fn between(from: &State, to: &State, share: f32) -> State {
+    let mut state = *from;
+    for (body, other) in state.bodies.iter_mut().zip(&to.bodies) {
+        body.position += share * (other.position - body.position);
+        body.angle += share * (other.angle - body.angle);
+    }
+    state
+}
+
 /// Writes a video. States are drawn as they come, so that they need not be in memory at once; all have the
 /// same views. Returns `false`, and leaves no file, if `interrupted`, which is called before each frame,
 /// returns `true`.
@@ -68,11 +148,11 @@ pub fn write_video<'a>(
     path: &Path,
     id: &str,
     physics: &PhysicsConfig,
-    palette: Palette,
+    look: &Look,
     items: impl IntoIterator<Item = RenderedState<'a>>,
     interrupted: &dyn Fn() -> bool,
 ) -> Result<bool, RunError> {
-    match video(id, physics, palette, items, interrupted)? {
+    match video(id, physics, look, items, interrupted)? {
         Some(mp4) => Ok(atomic::write(path, &mp4).map(|()| true)?),
         None => Ok(false),
     }
@@ -85,17 +165,17 @@ pub fn write_video<'a>(
 pub fn video<'a>(
     id: &str,
     physics: &PhysicsConfig,
-    palette: Palette,
+    look: &Look,
     items: impl IntoIterator<Item = RenderedState<'a>>,
     interrupted: &dyn Fn() -> bool,
 ) -> Result<Option<Vec<u8>>, RunError> {
     let mp4 = || -> Result<Option<Vec<u8>>, RenderError> {
-        let mut items = items.into_iter();
+        let mut items = at_rate(items.into_iter(), look.frame_rate);
         let first = items.next().ok_or(RenderError::NoFrames("video"))?;
-        let style = style(Style::default(), palette, core::slice::from_ref(&first));
+        let style = style(Style::with_side(look.size), look.palette, core::slice::from_ref(&first));
         let renderer = SceneRenderer::new(physics, style)?;
         let first = frame(&renderer, &first)?;
-        let mut video = VideoEncoder::new(Vec::new(), first.width(), first.height(), FRAMES_PER_SECOND)?;
+        let mut video = VideoEncoder::new(Vec::new(), first.width(), first.height(), look.frame_rate)?;
         video.push(&first)?;
         for item in items {
             if interrupted() {
@@ -112,12 +192,19 @@ pub fn video<'a>(
 ///
 /// # Errors
 /// [`RunError::Render`].
-pub fn beside(id: &str, events: &[&Event]) -> Result<Vec<u8>, RunError> {
+pub fn beside(id: &str, events: &[&Event], look: &Look) -> Result<Vec<u8>, RunError> {
     let mp4 = || -> Result<Vec<u8>, RenderError> {
-        let style = Style::with_side(SHEET_SIDE);
+        // Two thirds of the size, to the next even number.
+        let style =
+            Style { palette: look.palette, ..Style::with_side((look.size * 2 / 3).next_multiple_of(2)) };
         let renderers = events.iter().map(|event| SceneRenderer::new(&event.scene.physics(), style));
         let renderers = renderers.collect::<Result<Vec<_>, _>>()?;
-        let states: Vec<Vec<&State>> = events.iter().map(|event| event.frames().collect()).collect();
+        let states = |event: &&Event| -> Vec<State> {
+            let items =
+                event.frames().map(|&state| RenderedState { state, minds: Vec::new(), observer: None });
+            at_rate(items, look.frame_rate).map(|item| item.state).collect()
+        };
+        let states: Vec<Vec<State>> = events.iter().map(states).collect();
         let count = states.iter().map(Vec::len).max().unwrap_or(0);
         let mut video = None;
         for k in 0..count {
@@ -131,7 +218,7 @@ pub fn beside(id: &str, events: &[&Event]) -> Result<Vec<u8>, RunError> {
                     Vec::new(),
                     frame.width(),
                     frame.height(),
-                    FRAMES_PER_SECOND,
+                    look.frame_rate,
                 )?),
             };
             encoder.push(&frame)?;

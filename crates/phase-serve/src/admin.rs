@@ -45,6 +45,7 @@ async fn status(State(app): State<Arc<App>>, headers: HeaderMap) -> Result<Json<
         .collect();
     let recordings = files(&app.rooms.events())?.len();
     Ok(Json(json!({
+        "only_studies": app.settings.only_studies,
         "agents": Names::PAPER.agents,
         "rooms": rooms,
         "most_rooms": app.settings.rooms,

@@ -93,7 +93,7 @@ impl Server {
         let admin = token::new()?;
         let app = App {
             rooms: Rooms::open(settings.clone(), practice, scenes, stopped)?,
-            assets: assets(wasm),
+            assets: assets(wasm, settings.only_studies),
             admin: token::kept(&admin),
             strangers: Arc::new(Places::new(STRANGERS.0, STRANGERS.1)),
             requests: PerAddress::new(REQUESTS.0, REQUESTS.1),
@@ -168,8 +168,9 @@ impl Server {
 
 /// All routes.
 fn router(app: Arc<App>) -> Router {
+    let games = if app.settings.only_studies { Router::new() } else { rooms::routes() };
     Router::new()
-        .merge(rooms::routes())
+        .merge(games)
         .merge(admin::routes())
         .merge(study::routes())
         .fallback(assets::file)
@@ -177,13 +178,17 @@ fn router(app: Arc<App>) -> Router {
         .with_state(app)
 }
 
-/// The pages by path.
-fn assets(wasm: Option<[&[u8]; 2]>) -> Assets {
+/// The pages by path; those of studies and the admin page alone, if nothing else is served.
+fn assets(wasm: Option<[&[u8]; 2]>, only_studies: bool) -> Assets {
     let mut assets = Assets::default();
-    for file in phase_web::site() {
+    let belongs = |path: &str| {
+        !only_studies || path == "site.css" || path.starts_with("study/") || path.starts_with("admin/")
+    };
+    for file in phase_web::site().filter(|file| belongs(file.path)) {
         assets.add(format!("/{}", file.path), Bytes::from_static(file.bytes));
     }
     match wasm {
+        _ if only_studies => {}
         Some(wasm) => {
             for file in phase_web::playground(wasm) {
                 assets.add(format!("/playground/{}", file.path), Bytes::copy_from_slice(file.bytes));

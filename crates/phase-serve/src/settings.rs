@@ -13,7 +13,9 @@ pub struct ServerSettings {
     /// Its name for others, where there is a proxy or a public address: a host, with the port if it is not
     /// the usual one. Requests by another name are refused.
     pub host: Option<String>,
-    /// Whether a proxy in front of it tells who asks (`X-Forwarded-For`).
+    /// Whether nothing is served but rating studies and the admin page.
+    pub only_studies: bool,
+    /// Whether a proxy in front of it names the client (`X-Forwarded-For`).
     pub behind_proxy: bool,
     /// Folder for journals, recordings and answers.
     pub folder: PathBuf,
@@ -22,7 +24,7 @@ pub struct ServerSettings {
     /// Of them games in which a mind plays, at most: minds need most of a processor's time, and a server that
     /// has too little is late with every step.
     pub mind_rooms: usize,
-    /// Whether anybody may open a room, or only who has the admin token.
+    /// Whether anybody may open a room, or only the holder of the admin token.
     pub open: bool,
     /// Rounds of a game after the practice.
     pub rounds: usize,
@@ -58,6 +60,7 @@ mod tests {
         let settings = |host: Option<&str>| ServerSettings {
             listen: ([127, 0, 0, 1], 8017).into(),
             host: host.map(Into::into),
+            only_studies: false,
             behind_proxy: false,
             folder: PathBuf::new(),
             rooms: 1,

@@ -10,7 +10,7 @@
 //!
 //! Key design decision: what a rater sees next follows from what is stored of it, and every step is one
 //! transaction in one SQLite file that is only added to. So a server has no state of its own: it can be
-//! killed at any moment, and a rater who comes back goes on where it was. Clock and randomness are arguments,
+//! killed at any moment, and a returning rater continues where they left off. Clock and randomness are arguments,
 //! HTTP is elsewhere. The trade-off is that every answer waits for the disk, and that where videos are
 //! assigned all raters are read.
 //!

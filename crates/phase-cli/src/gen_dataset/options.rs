@@ -1,10 +1,13 @@
 //! The options of `gen-dataset` and `merge`.
 
-use crate::{effort::SimulationOptions, output::Output, parallel::Jobs, shard_option::shard};
+use crate::{
+    effort::SimulationOptions, look::LookOptions, output::Output, parallel::Jobs, shard_option::shard,
+};
 use chrono::NaiveDate;
 use clap::{Args, value_parser};
+use phase_dataset::form::StimulusForm;
 use phase_model::setting::EVENTS;
-use phase_runs::gen_dataset::Generation;
+use phase_runs::gen_dataset::{Generation, steps_of};
 use std::path::PathBuf;
 
 /// Options of `gen-dataset`.
@@ -28,6 +31,13 @@ pub struct GenDataset {
     /// Write no videos and no page, for training data
     #[arg(long)]
     pub no_video: bool,
+    /// Length of every event, 1 to 2500 seconds of video, a multiple of 0.25 [default: the preset's
+    /// rule]
+    #[arg(long, value_name = "S", value_parser = seconds)]
+    pub seconds: Option<u32>,
+    /// Look of the videos.
+    #[command(flatten)]
+    pub look: LookOptions,
     /// The date of publication in croissant.json, YYYY-MM-DD [default: none, so that every run makes the same
     /// bytes]
     #[arg(long, value_name = "DATE", value_parser = date)]
@@ -57,6 +67,12 @@ impl From<&GenDataset> for Generation {
             out: options.out.clone(),
             videos: !options.no_video,
             date_published: options.date_published.clone(),
+            form: StimulusForm {
+                steps: options.seconds,
+                size: options.look.size,
+                palette: options.look.palette.name().into(),
+                frame_rate: options.look.frame_rate,
+            },
             shard: options.shard,
             effort: options.effort.effort(),
             threads: options.jobs.given(),
@@ -76,6 +92,11 @@ pub struct Merge {
     /// Form in which the result is printed.
     #[command(flatten)]
     pub output: Output,
+}
+
+/// Reads a time as a number of steps.
+fn seconds(text: &str) -> Result<u32, String> {
+    steps_of(text).ok_or_else(|| "must be 1 to 2500, a multiple of 0.25".into())
 }
 
 /// Reads a date.

@@ -27,6 +27,11 @@ pub fn run(arguments: &NewScene, context: &Context) -> Result<(), CliError> {
     let scene = scene(arguments)?;
     let file = text::file(kind.name(), &scene, context.program.name)?;
     atomic::write(out, file.as_bytes()).map_err(CliError::Output)?;
+    // Sets and selected presets are tested; one scene is not.
+    context.note(format!(
+        "note: the scene is drawn, not tested: its event may not show {}; other seeds give other scenes",
+        kind.name()
+    ));
     let next =
         format!("{} simulate --events {} --out out/{}", context.program.name, out.display(), kind.name());
     let value = json!({

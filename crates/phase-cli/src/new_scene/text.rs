@@ -43,11 +43,13 @@ fn comments(program: &str) -> Vec<String> {
         "id: letters, digits, - and _; files of this event are named after it. Further events may follow in the list \
          events, each with an id of its own."
             .into(),
-        "event: the label: helping, hindering, chasing, competing, collaborating or independent.".into(),
+        "event: the kind: helping, hindering, chasing, competing, collaborating or independent. Change it with alpha and goals: a helping or \
+         hindering event has one agent with alpha 1 or -1, the others none."
+            .into(),
         "layout: base 0 to 21 is one of the paper's layouts of walls; flip null, or 0 to 3 for a reflection \
          (docs/images/layouts.png)."
             .into(),
-        "agents: two, red and green. alpha: 1 helps the other, -1 hinders it, 0 minds its own goal. A helping agent has \
+        "agents: agent 0 is red, agent 1 green. alpha: 1 helps the other, -1 hinders the other, 0 has a goal of its own. A helping agent has \
          the other's goal, a hindering one the other's goal with the opposite sign."
             .into(),
         "goal: {kind: agent_on_landmark, agent, landmark, sign}, {kind: object_on_landmark, object, landmark, sign} or \
@@ -55,7 +57,7 @@ fn comments(program: &str) -> Vec<String> {
             .into(),
         format!("size_level, the radius of a body: {sizes}. strength_level, the greatest force: {strengths}."),
         format!("Landmarks: {}.", landmarks.join(", ")),
-        "objects: none to two, blue and purple; an object with a level that is too heavy for one agent needs both.".into(),
+        "objects: none to two, light blue and pink; an object that is too heavy for one agent needs both.".into(),
         "trajectory: one row for each body, its start: x and y in u, vx and vy in u/s, angle in radians. Bodies must \
          overlap neither each other nor walls."
             .into(),

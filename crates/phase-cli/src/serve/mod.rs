@@ -28,7 +28,9 @@ pub fn run(arguments: &Serve, context: &Context) -> Result<(), CliError> {
     use phase_game::{GameSettings, playlist::Item};
     use phase_serve::{Server, ServerSettings};
     use phase_sim::SimulationSettings;
+    use std::net::Ipv4Addr;
 
+    let only_studies = !arguments.studies.is_empty() && arguments.scenes.is_none();
     let scenes: Vec<Item> = scenes::of(arguments, context)?;
     let practice = scenes::practice()?;
     let given = arguments.wasm.as_deref().map(read_wasm).transpose()?;
@@ -45,7 +47,8 @@ pub fn run(arguments: &Serve, context: &Context) -> Result<(), CliError> {
         ..arguments.simulation.settings()?
     };
     let settings = ServerSettings {
-        listen: arguments.listen,
+        listen: arguments.port.map_or(arguments.listen, |port| (Ipv4Addr::LOCALHOST, port).into()),
+        only_studies,
         host: arguments.host.clone(),
         behind_proxy: arguments.behind_proxy,
         folder: arguments.out.clone(),
@@ -58,13 +61,14 @@ pub fn run(arguments: &Serve, context: &Context) -> Result<(), CliError> {
     };
     let mut server = Server::bind(settings, practice, scenes, wasm)?;
     server.open_studies(&arguments.studies)?;
-    if wasm.is_none() {
+    if wasm.is_none() && !only_studies {
         context.note("note: built without the playground; `cargo xtask playground` builds it, and --wasm names its folder");
     }
     let address = server.address();
     let studies: String = server.studies().map(|name| format!("http://{address}/study/{name}/\n")).collect();
+    let first = if only_studies { String::new() } else { format!("http://{address}/\n") };
     print_result(format!(
-        "http://{address}/\n{studies}http://{address}/admin/#{} (for you alone)\nrecordings and journals in {}; Ctrl-C stops",
+        "{first}{studies}http://{address}/admin/#{} (for you alone)\nrecordings and journals in {}; Ctrl-C stops",
         server.admin_token(),
         arguments.out.display()
     ))?;

@@ -11,11 +11,14 @@ pub struct Serve {
     /// Address and port to listen on. Others than the loopback interface can be reached from outside
     #[arg(long, value_name = "ADDRESS", default_value = "127.0.0.1:8017")]
     pub listen: SocketAddr,
+    /// Port on 127.0.0.1 to listen on, 0 to 65535; with 0 the system chooses one
+    #[arg(long, value_name = "PORT", conflicts_with = "listen")]
+    pub port: Option<u16>,
     /// Name of this server for others, such as lab.example.org; requests by names that it does not have are
     /// refused
     #[arg(long, value_name = "HOST")]
     pub host: Option<String>,
-    /// A proxy in front of this server tells who asks (X-Forwarded-For)
+    /// A proxy in front of this server names the client (X-Forwarded-For)
     #[arg(long)]
     pub behind_proxy: bool,
     /// Folder for journals and recordings of games and for the answers of studies; a server that is started
@@ -44,14 +47,15 @@ pub struct Serve {
     /// Of them games in which a mind plays, 0 to 10000 [default: 12 for each core]
     #[arg(long, value_name = "N", value_parser = value_parser!(u16).range(0..=10_000))]
     pub mind_rooms: Option<u16>,
-    /// Only who has the admin token opens games
+    /// Only the holder of the admin token opens games
     #[arg(long)]
     pub invite_only: bool,
     /// Agents keep their velocity from step to step, as in simulations; in the paper's game they are stopped
     /// after each step
     #[arg(long)]
     pub inertia: bool,
-    /// A rating study (phase-study/1); may be given several times. Its page is /study/NAME/
+    /// A rating study (phase-study/1); may be given several times. Its page is /study/NAME/. Raters find
+    /// nothing else on this server, unless --scenes is given too
     #[arg(long = "study", value_name = "FILE")]
     pub studies: Vec<PathBuf>,
     /// Seed of the order of scenes and of the minds that play

@@ -5,7 +5,7 @@ use super::{
     options::{BackupStudy, ExportStudy, ReportStudy},
 };
 use crate::{console::print_message, error::CliError};
-use phase_files::{WriteError, atomic, private, regular, told};
+use phase_files::{FileError, Problem, WriteError, atomic, private, regular, told};
 use phase_study::{
     analysis::{Analysis, document},
     config::StudyConfig,
@@ -14,10 +14,46 @@ use phase_study::{
     store::{Answers, backup as copy},
 };
 use serde_json::json;
-use std::{ffi::OsString, fs, path::Path};
+use std::{
+    ffi::OsString,
+    fs,
+    path::{Path, PathBuf},
+};
+
+/// The file with the answers of a study: the one that is given, or that of the study's name in the folder of
+/// a server.
+fn file_of(config: &StudyConfig, answers: &Path) -> Result<PathBuf, CliError> {
+    if !answers.is_dir() {
+        return Ok(answers.to_owned());
+    }
+    let studies = answers.join("studies");
+    let folder = if studies.is_dir() { studies } else { answers.to_owned() };
+    let file = folder.join(format!("{}.sqlite", config.name));
+    if file.is_file() {
+        return Ok(file);
+    }
+    let listed = fs::read_dir(&folder).and_then(Iterator::collect::<Result<Vec<_>, _>>);
+    let listed = listed.map_err(|error| {
+        CliError::File(FileError { file: folder.clone(), problem: Problem::Unreadable(error) })
+    })?;
+    let is_answers = |path: &PathBuf| path.extension().is_some_and(|extension| extension == "sqlite");
+    let mut others: Vec<String> = listed
+        .iter()
+        .map(fs::DirEntry::path)
+        .filter(is_answers)
+        .filter_map(|path| path.file_stem().map(|name| name.to_string_lossy().into_owned()))
+        .collect();
+    others.sort();
+    let there = if others.is_empty() { "of no study".into() } else { format!("of {}", others.join(", ")) };
+    let (folder, name) = (folder.display(), &config.name);
+    Err(CliError::Usage(format!(
+        "--answers: {folder} has no answers of the study {name}; it has those {there}"
+    )))
+}
 
 /// The raters of a study.
 fn raters(config: &StudyConfig, answers: &Path) -> Result<Vec<Rater>, CliError> {
+    let answers = &file_of(config, answers)?;
     let read = Answers::read(answers, &config.name, config.form.name()).map_err(CliError::Answers)?;
     if let Some(log) = read.missing_log {
         // Also with --quiet: what follows may be wrong.

@@ -29,15 +29,18 @@ pub(super) fn run(arguments: &CheckStudy, context: &Context) -> Result<(), CliEr
         ("instructions", &config.instructions),
     ] {
         if open(texts) {
-            notes.push(format!("`{name}` has a text in [brackets] that waits to be replaced"));
+            notes.push(format!("`{name}` has a text in [brackets] that you have to replace"));
         }
     }
     if config.completion.code.is_none() && config.completion.url.is_none() {
         notes
             .push("`completion` has neither code nor url: raters cannot show that they have finished".into());
     }
+    if !config.one_of_each_set && config.stimuli.iter().any(|stimulus| stimulus.set.is_some()) {
+        notes.push("a rater may see several videos of a set, unless `one_of_each_set` is true".into());
+    }
     if config.catch_trials.is_empty() {
-        notes.push("`catch_trials` is empty: inattentive raters are not told from others".into());
+        notes.push("`catch_trials` is empty: inattentive raters cannot be recognised".into());
     }
     for note in &notes {
         context.note(format!("note: {}: {note}", arguments.config.display()));

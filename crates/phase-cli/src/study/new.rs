@@ -2,14 +2,17 @@
 
 use super::{options::NewStudy, videos};
 use crate::{context::Context, error::CliError};
-use phase_files::{atomic, told};
+use phase_files::{WriteError, atomic, told};
 use phase_study::{
     config::{CatchTrial, Stimulus, StudyConfig},
     design::{Design, Experiment},
     forms::{Form, Forms, INTERACTIONS, RELATION},
 };
 use serde_json::json;
-use std::collections::{BTreeMap, BTreeSet};
+use std::{
+    collections::{BTreeMap, BTreeSet},
+    fs,
+};
 
 pub(super) fn run(arguments: &NewStudy, context: &Context) -> Result<(), CliError> {
     let out = &arguments.out;
@@ -20,18 +23,35 @@ pub(super) fn run(arguments: &NewStudy, context: &Context) -> Result<(), CliErro
     let Some(experiment) = named else {
         return Err(CliError::Usage(format!("--experiment: there is no {}", arguments.experiment)));
     };
-    let mut stimuli = videos::stimuli(arguments, context)?;
+    let (mut stimuli, copies) = videos::stimuli(arguments, context)?;
     let mut catch_trials = Vec::new();
     for given in &arguments.catch_trials {
         catch_trials.push(catch_trial(given, experiment.form(), &mut stimuli)?);
     }
-    let design = Design { experiment, stimuli, catch_trials, seed: arguments.seed };
+    let design = Design {
+        experiment,
+        stimuli,
+        catch_trials,
+        name: arguments.name.clone(),
+        videos_per_rater: arguments.videos_per_rater,
+        one_of_each_set: arguments.one_of_each_set,
+        seed: arguments.seed,
+    };
     let text = design.to_text();
     // What was put together from options and names of files is read as any other configuration.
     let config = Forms::included().map_err(CliError::Forms).and_then(|forms| {
         StudyConfig::read(text.as_bytes(), &forms)
             .map_err(|source| CliError::Study { file: out.clone(), source: Box::new(source) })
     })?;
+    if let Some(folder) = out.parent().filter(|folder| !folder.as_os_str().is_empty()) {
+        fs::create_dir_all(folder).map_err(|source| {
+            CliError::Output(WriteError { path: folder.to_owned(), action: "create the folder", source })
+        })?;
+    }
+    copies.iter().try_for_each(videos::Copy::make)?;
+    if !copies.is_empty() {
+        context.note(format!("{} videos copied to {}", copies.len(), out.with_file_name("videos").display()));
+    }
     atomic::write(out, text.as_bytes()).map_err(CliError::Output)?;
     let value = json!({
         "file": told(out), "form": config.form.name(), "videos": config.stimuli.len(),

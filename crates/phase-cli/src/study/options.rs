@@ -30,19 +30,28 @@ pub struct NewStudy {
     /// (goals, relation and human-likeness), or the relations of Malik and Isik 2023
     #[arg(long, value_name = "NAME", value_parser = PossibleValuesParser::new(EXPERIMENTS))]
     pub experiment: String,
-    /// Folder with videos, a finished dataset or .mp4 files, below that of --out; SOURCE, such as phase or
-    /// human, tells folders apart [default source: phase]
+    /// Folder with videos, a finished dataset or .mp4 files; SOURCE, such as phase or human, distinguishes
+    /// folders [default source: phase]. Videos that do not lie below the folder of --out are copied there
     #[arg(long, value_name = "[SOURCE=]DIR", required = true)]
     pub videos: Vec<String>,
     /// File in the format phase-events/1 with the events that .mp4 files show, for their labels
     #[arg(long, value_name = "FILE")]
     pub events: Vec<PathBuf>,
-    /// Take so many videos of each folder, 1 to 1000000, at random
+    /// Take this many videos of each folder, 1 to 1000000, at random [default: all]
     #[arg(long, value_name = "N", value_parser = value_parser!(u32).range(EVENTS.bounds()))]
     pub sample: Option<u32>,
     /// Make a video a catch trial: its id, and the relation or type of interaction that everybody sees in it
     #[arg(long = "catch", value_name = "ID=ANSWER")]
     pub catch_trials: Vec<String>,
+    /// Name of the study, part of its address: small letters, digits and - [default: the experiment's]
+    #[arg(long, value_name = "NAME")]
+    pub name: Option<String>,
+    /// Videos for each rater, 1 to 1000000 [default: all, or of 100 and more the experiment's number]
+    #[arg(long, value_name = "N", value_parser = value_parser!(u32).range(EVENTS.bounds()))]
+    pub videos_per_rater: Option<u32>,
+    /// Show no rater two videos of one set, such as both events of a minimal pair
+    #[arg(long)]
+    pub one_of_each_set: bool,
     /// Seed of assignments and of --sample, 0 to 9223372036854775807
     #[arg(
         long,
@@ -51,7 +60,7 @@ pub struct NewStudy {
         value_parser = value_parser!(u64).range(..=i64::MAX as u64)
     )]
     pub seed: u64,
-    /// File for the configuration; it must not exist
+    /// File for the configuration, which must not exist; its folder is made
     #[arg(long, value_name = "FILE", default_value = "study.json")]
     pub out: PathBuf,
     /// Form in which the result is printed.
@@ -76,8 +85,8 @@ pub struct ExportStudy {
     /// The configuration (phase-study/1)
     #[arg(value_name = "FILE")]
     pub config: PathBuf,
-    /// The file with the answers (.sqlite), as the server keeps it
-    #[arg(long, value_name = "FILE")]
+    /// The file with the answers (.sqlite), or the folder of the server, which has it by the study's name
+    #[arg(long, value_name = "FILE|DIR")]
     pub answers: PathBuf,
     /// Folder for the dataset; new or empty
     #[arg(long, value_name = "DIR")]
@@ -96,8 +105,8 @@ pub struct ReportStudy {
     /// The configuration (phase-study/1)
     #[arg(value_name = "FILE")]
     pub config: PathBuf,
-    /// The file with the answers (.sqlite), as the server keeps it
-    #[arg(long, value_name = "FILE")]
+    /// The file with the answers (.sqlite), or the folder of the server, which has it by the study's name
+    #[arg(long, value_name = "FILE|DIR")]
     pub answers: PathBuf,
     /// Folder for the report
     #[arg(long, value_name = "DIR")]

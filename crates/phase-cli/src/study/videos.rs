@@ -4,6 +4,7 @@ use super::options::NewStudy;
 use crate::{context::Context, error::CliError};
 use phase_dataset::manifest::{EventEntry, MANIFEST_FILE, Manifest};
 use phase_event::Recording;
+use phase_files::{WriteError, atomic, regular};
 use phase_model::{
     Attitude, Relation, Scene,
     random::{Purpose, stream},
@@ -15,29 +16,67 @@ use phase_study::{
 };
 use rand::RngExt;
 use std::{
-    collections::BTreeMap,
+    collections::{BTreeMap, BTreeSet},
     ffi::OsStr,
     fs,
     path::{Path, PathBuf},
 };
 
-/// The videos of all folders, in the order of folders and ids.
-pub(super) fn stimuli(arguments: &NewStudy, context: &Context) -> Result<Vec<Stimulus>, CliError> {
+/// The folder of a study's configuration, below which its videos lie. Those that lie elsewhere are copied.
+struct Base {
+    folder: PathBuf,
+    copies: Vec<Copy>,
+}
+
+/// A video to be copied.
+#[derive(Debug)]
+pub(super) struct Copy {
+    from: PathBuf,
+    to: PathBuf,
+}
+
+impl Copy {
+    /// Copies the video, unless it is there.
+    pub(super) fn make(&self) -> Result<(), CliError> {
+        let bytes = regular::bytes(&self.from)?;
+        if self.to.exists() {
+            if regular::bytes(&self.to)? == bytes {
+                return Ok(());
+            }
+            let (to, from) = (self.to.display(), self.from.display());
+            return Err(CliError::Usage(format!(
+                "{to}: is there, and is not {from}, which would be copied there"
+            )));
+        }
+        let folder = self.to.parent().unwrap_or_else(|| Path::new(""));
+        fs::create_dir_all(folder).map_err(|source| {
+            CliError::Output(WriteError { path: folder.to_owned(), action: "create the folder", source })
+        })?;
+        atomic::write(&self.to, &bytes).map_err(CliError::Output)
+    }
+}
+
+/// The videos of all folders, in the order of folders and ids, and those of them to be copied.
+pub(super) fn stimuli(
+    arguments: &NewStudy,
+    context: &Context,
+) -> Result<(Vec<Stimulus>, Vec<Copy>), CliError> {
     let mut known = BTreeMap::new();
     for file in &arguments.events {
         for (_, recording) in source::read(file, &[], context)? {
             known.insert(recording.id.clone(), recording);
         }
     }
-    let base = arguments.out.parent().unwrap_or_else(|| Path::new(""));
+    let folder = arguments.out.parent().unwrap_or_else(|| Path::new("")).to_owned();
+    let mut base = Base { folder, copies: Vec::new() };
     let mut all = Vec::new();
     for (k, given) in arguments.videos.iter().enumerate() {
         let (source, folder) = given.split_once('=').unwrap_or(("phase", given));
         let folder = Path::new(folder);
         let mut stimuli = if folder.join(MANIFEST_FILE).is_file() {
-            of_dataset(folder, source, base)?
+            of_dataset(folder, source, &mut base)?
         } else {
-            of_folder(folder, source, base, &known)?
+            of_folder(folder, source, &mut base, &known)?
         };
         if stimuli.is_empty() {
             return Err(CliError::Usage(format!("{}: holds no videos", folder.display())));
@@ -47,7 +86,9 @@ pub(super) fn stimuli(arguments: &NewStudy, context: &Context) -> Result<Vec<Sti
         }
         all.extend(stimuli);
     }
-    Ok(all)
+    let shown: BTreeSet<PathBuf> = all.iter().map(|stimulus| base.folder.join(&stimulus.video)).collect();
+    base.copies.retain(|copy| shown.contains(&copy.to));
+    Ok((all, base.copies))
 }
 
 /// So many of the videos, drawn at random, in their order.
@@ -59,9 +100,9 @@ fn sample(mut stimuli: Vec<Stimulus>, count: usize, seed: u64, folder: u64) -> V
     stimuli
 }
 
-fn of_dataset(folder: &Path, source: &str, base: &Path) -> Result<Vec<Stimulus>, CliError> {
+fn of_dataset(folder: &Path, source: &str, base: &mut Base) -> Result<Vec<Stimulus>, CliError> {
     let manifest = Manifest::read(&folder.join(MANIFEST_FILE))?;
-    let of = |entry: &EventEntry| {
+    let mut of = |entry: &EventEntry| {
         let Some(video) = &entry.video else {
             let sentence = format!("{}: event {} has no video", folder.display(), entry.id);
             return Err(CliError::Usage(sentence));
@@ -71,9 +112,15 @@ fn of_dataset(folder: &Path, source: &str, base: &Path) -> Result<Vec<Stimulus>,
         let goals = entry.agents.each_ref().map(|agent| agent.goal);
         Ok(Stimulus {
             id: entry.id.clone(),
-            video: relative(&video.place(folder), base)?,
+            video: base.place(&video.place(folder), source)?,
             source: source.into(),
             objects: objects(entry.object_size_levels.len()),
+            // What a dataset varies: in a set the stance of one agent, else the kind of event.
+            set: entry.set.as_ref().map(|place| place.set.clone()),
+            condition: Some(match &entry.set {
+                Some(place) => place.stance.name().into(),
+                None => entry.kind.name().into(),
+            }),
             labels: Labels {
                 goals: known_goals(goals, attitudes),
                 relation: Some(entry.relation.name().into()),
@@ -81,13 +128,13 @@ fn of_dataset(folder: &Path, source: &str, base: &Path) -> Result<Vec<Stimulus>,
             },
         })
     };
-    manifest.events.iter().map(of).collect()
+    manifest.events.iter().map(&mut of).collect()
 }
 
 fn of_folder(
     folder: &Path,
     source: &str,
-    base: &Path,
+    base: &mut Base,
     known: &BTreeMap<String, Recording>,
 ) -> Result<Vec<Stimulus>, CliError> {
     let listed = fs::read_dir(folder).and_then(Iterator::collect::<Result<Vec<_>, _>>);
@@ -98,15 +145,16 @@ fn of_folder(
     let mut files: Vec<PathBuf> = listed.map_err(unreadable)?.into_iter().map(|entry| entry.path()).collect();
     files.retain(|file| file.extension().is_some_and(|extension| extension == "mp4"));
     files.sort();
-    let of = |file: &PathBuf| {
+    let mut of = |file: &PathBuf| {
         let id = file.file_stem().and_then(OsStr::to_str).ok_or_else(|| unnamed(file))?.to_owned();
-        let video = relative(file, base)?;
+        let video = base.place(file, source)?;
         let (objects, labels) = known.get(&id).map_or((2, Labels::default()), |recording| {
             (objects(recording.scene.objects.len()), labels(&recording.scene, recording.relation))
         });
-        Ok(Stimulus { id, video, source: source.into(), objects, labels })
+        let condition = labels.kind.clone();
+        Ok(Stimulus { id, video, source: source.into(), objects, set: None, condition, labels })
     };
-    files.iter().map(of).collect()
+    files.iter().map(&mut of).collect()
 }
 
 fn labels(scene: &Scene, relation: Relation) -> Labels {
@@ -121,26 +169,29 @@ fn objects(count: usize) -> u8 {
     u8::try_from(count).unwrap_or(u8::MAX)
 }
 
-/// A path relative to a folder above it, with `/`.
-fn relative(file: &Path, base: &Path) -> Result<String, CliError> {
-    let absolute = |path: &Path| {
-        let path = if path.as_os_str().is_empty() { Path::new(".") } else { path };
-        fs::canonicalize(path).map_err(|error| {
+impl Base {
+    /// The path of a video relative to the configuration, with `/`; of one that lies elsewhere that of its copy.
+    fn place(&mut self, file: &Path, source: &str) -> Result<String, CliError> {
+        let file = fs::canonicalize(file).map_err(|error| {
             let problem = phase_files::Problem::Unreadable(error);
-            CliError::File(phase_files::FileError { file: path.to_owned(), problem })
-        })
-    };
-    let file = absolute(file)?;
-    let base = absolute(base)?;
-    let Ok(below) = file.strip_prefix(&base) else {
-        return Err(CliError::Usage(format!(
-            "--videos: {} does not lie below {}, the folder of --out",
-            file.display(),
-            base.display()
-        )));
-    };
-    let parts = below.components().map(|part| part.as_os_str().to_str());
-    parts.collect::<Option<Vec<_>>>().map(|parts| parts.join("/")).ok_or_else(|| unnamed(below))
+            CliError::File(phase_files::FileError { file: file.to_owned(), problem })
+        })?;
+        // A folder that is not there has no videos.
+        let folder = if self.folder.as_os_str().is_empty() { Path::new(".") } else { &self.folder };
+        let base = fs::canonicalize(folder).ok();
+        let below = base.and_then(|base| file.strip_prefix(base).ok().map(Path::to_owned));
+        let below = match below {
+            Some(below) => below,
+            None => {
+                let name = file.file_name().ok_or_else(|| unnamed(&file))?;
+                let below = Path::new("videos").join(source).join(name);
+                self.copies.push(Copy { to: self.folder.join(&below), from: file.clone() });
+                below
+            }
+        };
+        let parts = below.components().map(|part| part.as_os_str().to_str());
+        parts.collect::<Option<Vec<_>>>().map(|parts| parts.join("/")).ok_or_else(|| unnamed(&below))
+    }
 }
 
 /// A configuration names videos in text.

@@ -37,7 +37,10 @@ fn what_cannot_be_served_is_refused_in_a_sentence() {
 #[cfg(unix)]
 pub(crate) struct Served {
     child: Child,
-    lines: Lines<BufReader<ChildStdout>>,
+    /// Its output, which stays open.
+    _lines: Lines<BufReader<ChildStdout>>,
+    /// The first line of what it says: an address.
+    pub(crate) first: String,
     address: String,
 }
 
@@ -52,14 +55,9 @@ impl Served {
             .spawn()
             .expect("the program starts");
         let mut lines = BufReader::new(child.stdout.take().expect("its output")).lines();
-        let line = lines.next().expect("a line").expect("text");
-        let address = line.trim_start_matches("http://").trim_end_matches('/').to_owned();
-        Self { child, lines, address }
-    }
-
-    /// The next line of what it says, after the first.
-    pub(crate) fn said(&mut self) -> String {
-        self.lines.next().expect("a line").expect("text")
+        let first = lines.next().expect("a line").expect("text");
+        let address = first.trim_start_matches("http://").split('/').next().expect("an address").to_owned();
+        Self { child, _lines: lines, first, address }
     }
 
     /// The answer to a request, with its head.

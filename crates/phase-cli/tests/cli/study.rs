@@ -116,7 +116,19 @@ mod built_in {
             (&analysis["raters"]["complete"], &analysis["coverage"]["judgements"]),
             (&json!(3), &json!(9))
         );
+        // The folder of a server, and one that has another study.
+        fs::create_dir_all(path.join("served/studies")).expect("a folder");
+        fs::copy(path.join("answers.sqlite"), path.join("served/studies/relations.sqlite")).expect("copied");
+        let of_folder = ["study", "report", "study.json", "--answers", "served", "--out", "again", "--json"];
+        assert_eq!(succeed(path, &of_folder), report);
+        let renamed = fs::read_to_string(path.join("study.json")).expect("a study");
+        fs::write(path.join("other.json"), renamed.replace("\"relations\"", "\"other\"")).expect("written");
+        let other = ["study", "report", "other.json", "--answers", "served", "--out", "other"];
+        assert!(refuse(path, &other).contains("no answers of the study other; it has those of relations"));
         let files = tree(&path.join("report"));
+        for file in ["confusion.svg", "conditions.svg"] {
+            assert!(files.contains_key(Path::new(file)), "{file}");
+        }
         for file in ["report.md", "report.html", "analysis.json"] {
             assert!(files.contains_key(Path::new(file)), "{file}");
         }
@@ -131,9 +143,10 @@ mod built_in {
         let path = folder.path();
         let before = |arguments: &[&str]| match arguments {
             ["serve", options @ ..] => {
-                let mut served = Served::start(path, options);
-                let page = served.said();
+                let served = Served::start(path, options);
+                let page = &served.first;
                 assert!(page.ends_with("/study/relations/"), "{page}");
+                assert!(served.get("/").contains("404") && served.get("/api/game").contains("404"));
                 assert!(served.get("/study/relations/").starts_with("HTTP/1.1 200"));
                 assert!(served.get("/api/study/relations/").contains("404"));
                 served.stop();
@@ -206,7 +219,9 @@ mod built_in {
             (&["--videos", "data", "--catch", "demo-0001"], &["ID=ANSWER"]),
             (&["--videos", "data", "--catch", "demo-0009=neutral"], &["demo-0009"]),
             (&["--videos", "data", "--catch", "demo-0001=angry"], &["expected.relation", "friendly"]),
-            (&["--videos", "data", "--out", "empty/s.json"], &["--videos", "below"]),
+            (&["--videos", "data", "--name", "A study"], &["`name`", "small letters"]),
+            (&["--videos", "data", "--one-of-each-set"], &["`one_of_each_set`", "`set`"]),
+            (&["--videos", "data", "--videos-per-rater", "9"], &["`videos_per_rater`", "1 to 4"]),
             (&["--videos", "data", "--videos", "data"], &["twice"]),
             (&["--videos", "a b=data"], &["`stimuli[0].source`"]),
         ];
@@ -218,6 +233,15 @@ mod built_in {
         }
         succeed(path, &[&new[..], &["--videos", "data"]].concat());
         assert!(refuse(path, &[&new[..], &["--videos", "data"]].concat()).contains("exists"));
+        // Videos from elsewhere are copied into a folder that is made.
+        let elsewhere = ["--videos", "data", "--name", "mine", "--out", "new/folder/s.json"];
+        succeed(path, &[&new[..], &elsewhere].concat());
+        succeed(path, &["study", "check", "new/folder/s.json"]);
+        let copied = fs::read(path.join("new/folder/videos/phase/demo-0001.mp4")).expect("a copy");
+        assert_eq!(copied, fs::read(path.join("data/videos/demo-0001.mp4")).expect("a video"));
+        fs::write(path.join("new/folder/videos/phase/demo-0001.mp4"), "another").expect("written");
+        fs::remove_file(path.join("new/folder/s.json")).expect("removed");
+        assert!(refuse(path, &[&new[..], &elsewhere].concat()).contains("demo-0001.mp4: is there"));
         let none = ["study", "report", "study.json", "--answers", "none.sqlite", "--out", "report"];
         assert!(refuse(path, &none).contains("none.sqlite: no such file"));
         let other = ["study", "report", "study.json", "--answers", "study.json", "--out", "report"];

@@ -4,6 +4,7 @@ use super::video;
 use crate::DatasetProblem;
 use crate::{
     event_set::{PairEntry, SetEntry, set_video_path},
+    form::StimulusForm,
     manifest::{EventEntry, MANIFEST_FILE, Manifest, event_path, video_path},
     parquet,
 };
@@ -63,7 +64,7 @@ pub(super) fn check(folder: &Path, manifest: &Manifest, entry: &EventEntry) -> R
         return Err(FileError { file, problem: DatasetProblem::Form.into() });
     }
     match &entry.video {
-        Some(video) => video::check(folder, video, simulation.event.steps.len()),
+        Some(video) => video::check(folder, video, manifest.form.frames(simulation.event.steps.len())),
         None => Ok(()),
     }
 }
@@ -121,7 +122,12 @@ pub(super) fn members(manifest: &Manifest) -> BTreeMap<&str, Vec<&EventEntry>> {
 }
 
 /// Checks that the events of a set part where the manifest says.
-pub(super) fn pairs(folder: &Path, set: &SetEntry, members: &[&EventEntry]) -> Result<(), FileError> {
+pub(super) fn pairs(
+    folder: &Path,
+    form: &StimulusForm,
+    set: &SetEntry,
+    members: &[&EventEntry],
+) -> Result<(), FileError> {
     let read = |entry: &&EventEntry| parquet::read(folder, entry);
     let recordings: Vec<Recording> = members.iter().map(read).collect::<Result<_, _>>()?;
     let simulated = |recording: &Recording| recording.simulation.as_ref().map(|it| it.event.clone());
@@ -134,7 +140,7 @@ pub(super) fn pairs(folder: &Path, set: &SetEntry, members: &[&EventEntry]) -> R
         return Err(FileError { file: folder.join(MANIFEST_FILE), problem });
     }
     let longest = events.iter().map(|(_, event)| event.steps.len()).max().unwrap_or(0);
-    set.video.as_ref().map_or(Ok(()), |video| video::check(folder, video, longest))
+    set.video.as_ref().map_or(Ok(()), |video| video::check(folder, video, form.frames(longest)))
 }
 
 /// Settings without the members in which events may differ.

@@ -107,7 +107,7 @@ pub fn verify_with<E>(
         let members = members.get(set.id.as_str()).map_or(&[][..], Vec::as_slice);
         let whole = members.iter().all(|entry| readable(entry.event.path.as_str()));
         let video = set.video.as_ref().is_none_or(|video| readable(video.path.as_str()));
-        (whole && video).then(|| events::pairs(folder, set, members).err()).flatten()
+        (whole && video).then(|| events::pairs(folder, &manifest.form, set, members).err()).flatten()
     })?;
     problems.extend(sets.into_iter().flatten());
     let with_events: Vec<(&ParquetFile, Vec<&EventEntry>)> =

@@ -2,7 +2,6 @@
 //! it shows the event takes drawing it again.
 
 use phase_files::{FileError, Problem, checksum::FileEntry, regular};
-use phase_model::arena::SUBSTEPS;
 use std::{
     fs::File,
     io::{self, Read, Seek, SeekFrom},
@@ -16,22 +15,18 @@ const TO_SIZES: [[u8; 4]; 5] = [*b"trak", *b"mdia", *b"minf", *b"stbl", *b"stsz"
 /// Largest description (bytes): that of the longest events has some 20 bytes for each frame.
 const LARGEST_DESCRIPTION: u64 = 16 << 20;
 
-/// Checks the video of an event of some steps.
-pub(super) fn check(folder: &Path, entry: &FileEntry, steps: usize) -> Result<(), FileError> {
+/// Checks that a video has so many frames.
+pub(super) fn check(folder: &Path, entry: &FileEntry, frames: usize) -> Result<(), FileError> {
     let file = entry.place(folder);
     let fail = |problem| FileError { file: file.clone(), problem };
     let shape = |rule: String| fail(Problem::Shape { what: "video", rule });
     let sizes = frame_sizes(regular::open(&file)?)
         .map_err(|error| fail(Problem::Unreadable(error)))?
         .map_err(shape)?;
-    let frames = 1 + SUBSTEPS * steps;
     if sizes.len() == frames {
         Ok(())
     } else {
-        Err(shape(format!(
-            "it has {} frames instead of {frames}, one and {SUBSTEPS} for each step",
-            sizes.len()
-        )))
+        Err(shape(format!("it has {} frames instead of {frames}, one and those of each step", sizes.len())))
     }
 }
 

@@ -1,7 +1,10 @@
 //! Manifests describe a dataset and detect changes.
 
 use crate::support::plain_event;
-use phase_dataset::manifest::{DATASET_FORMAT, EventEntry, MANIFEST_FILE, Manifest, event_path, video_path};
+use phase_dataset::{
+    form::StimulusForm,
+    manifest::{DATASET_FORMAT, EventEntry, MANIFEST_FILE, Manifest, event_path, video_path},
+};
 use phase_files::Problem;
 use phase_model::{EventKind, Relation, json::JsonError};
 use serde_json::{Value, json};
@@ -21,6 +24,7 @@ pub(crate) fn dataset(folder: &Path, id: &str) -> Manifest {
         seed: u64::MAX,
         date_published: None,
         settings: json!({"max_steps": 2}),
+        form: StimulusForm::default(),
         selection: Vec::new(),
         sets: Vec::new(),
         events: vec![entry],

@@ -1,7 +1,7 @@
 //! Speed, path and contact of synthetic events.
 
 use crate::support::{Move, track};
-use phase_evidence::{MotionStatistics, Track, contact::TOUCH_GAP, motion::common_steps};
+use phase_evidence::{MotionStatistics, Track, VideoMotion, contact::TOUCH_GAP, motion::common_steps};
 use phase_model::{AgentId, Contacts, Entity, ObjectId};
 
 /// Agent 0 at these x, facing up; agent 1 far away; an object at (20, 10).
@@ -76,4 +76,27 @@ fn a_longer_event_is_cut_to_the_shorter_one() {
     assert!((motion.path - 0.5).abs() < 1e-5 && motion.speeds.len() == 1, "{motion:?}");
     assert_eq!(MotionStatistics::of(&short, AgentId::ZERO, 5).speeds.len(), 1, "nothing lies past the end");
     assert_eq!(MotionStatistics::of(&walk(&[8.0]), AgentId::ZERO, 5).contact_share(), None);
+}
+
+#[test]
+fn the_motion_of_a_video_is_in_its_seconds() {
+    // Agent 0 stands, jumps 1 u a step twice, and stands; agent 1 stays at (20, 8). A step is 0.25 s.
+    let places = [8.0, 8.0, 9.0, 10.0, 10.0];
+    let track = crate::support::track(places.map(|x| crate::support::Move {
+        agents: [(x, 8.0, 0.0), (20.0, 8.0, 0.0)],
+        ..crate::support::Move::default()
+    }));
+    let motion = VideoMotion::of(&track).expect("steps");
+    let close = |found: f64, expected: f64| assert!((found - expected).abs() < 1e-5, "{motion:?}");
+    close(motion.seconds, 1.0);
+    close(motion.path[0], 2.0);
+    close(motion.speed[0], 2.0);
+    close(motion.path[1], 0.0);
+    // Displacements of steps 2 to 4 are 1, 1, 0: changes 0 and 1 u, over 0.25 s squared.
+    close(motion.acceleration[0], 0.5 / 0.0625);
+    close(motion.acceleration[1], 0.0);
+    close(motion.distance, (12.0 + 12.0 + 11.0 + 10.0 + 10.0) / 5.0);
+    close(motion.least_distance, 10.0);
+    close(motion.agents_touch, 0.0);
+    assert_eq!(VideoMotion::of(&track.until(0)), None);
 }

@@ -90,11 +90,11 @@ fn bars_are_as_long_as_their_share_of_the_arena() {
         let lines = [Caption::default(), Caption { bar: share, ..Caption::default() }, Caption::default()];
         let frame = draw(&renderer, "", &lines);
         let coloured = |y: u32| (0..480).filter(|&x| frame.pixel(x, y) == Some(bar)).collect::<Vec<_>>();
-        assert_eq!(coloured(480 + 18 + 3), (20..20 + length).collect::<Vec<_>>(), "share {share}");
-        for y in [480 + 3, 480 + 17, 480 + 34, 480 + 36] {
+        assert_eq!(coloured(480 + 18 + 14), (20..20 + length).collect::<Vec<_>>(), "share {share}");
+        for y in [480 + 3, 480 + 17, 480 + 18 + 8, 480 + 34, 480 + 36] {
             assert!(
                 coloured(y).is_empty(),
-                "share {share}: other lines and the gap below stay free, row {y}"
+                "share {share}: the text, other lines and the gap below stay free, row {y}"
             );
         }
     }

@@ -1,6 +1,9 @@
 //! A dataset of one event.
 
-use phase_dataset::manifest::{DATASET_FORMAT, EventEntry, Manifest, event_path, video_path};
+use phase_dataset::{
+    form::StimulusForm,
+    manifest::{DATASET_FORMAT, EventEntry, Manifest, event_path, video_path},
+};
 use phase_event::{Event, Step, SubgoalValue, Thought};
 use phase_model::{
     Action, AgentId, AgentSpec, Attitude, Body, Entity, EventKind, Flip, Goal, LandmarkId, Layout, Literal,
@@ -77,6 +80,7 @@ pub(crate) fn dataset(folder: &Path, id: &str) -> Manifest {
         seed: 1,
         date_published: None,
         settings: json!({"max_steps": 2}),
+        form: StimulusForm::default(),
         selection: Vec::new(),
         sets: Vec::new(),
         events: vec![EventEntry::of(folder, id, &plain_event(2), true).expect("described")],

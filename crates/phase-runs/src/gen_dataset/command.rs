@@ -2,8 +2,12 @@
 
 use super::Generation;
 use crate::effort::{Effort, MindChoice};
+use phase_dataset::form::StimulusForm;
 use phase_minds::{Foresight, MindKind, PARTICLES, SIMULATIONS};
-use phase_model::setting::{EVENT_STEPS, EVENTS, Setting};
+use phase_model::{
+    arena::STEP_VIDEO_SECONDS,
+    setting::{EVENT_STEPS, EVENTS, Setting},
+};
 use phase_sim::Engine;
 
 /// Beginning of the command.
@@ -17,7 +21,19 @@ impl Generation {
         let no_video = if self.videos { "" } else { " --no-video" };
         let date = self.date_published.as_ref();
         let date = date.map_or_else(String::new, |date| format!(" --date-published {date}"));
-        format!("{PROGRAM}--preset {name} --events {events} --seed {seed}{effort}{no_video}{date}")
+        let form = self.form_options();
+        format!("{PROGRAM}--preset {name} --events {events} --seed {seed}{effort}{form}{no_video}{date}")
+    }
+
+    /// The options for length and look of the events, each with a space before it.
+    fn form_options(&self) -> String {
+        let usual = StimulusForm::default();
+        let StimulusForm { steps, size, palette, frame_rate } = &self.form;
+        let seconds = steps.map(|steps| format!(" --seconds {}", f64::from(steps) * STEP_VIDEO_SECONDS));
+        let size = (*size != usual.size).then(|| format!(" --size {size}"));
+        let palette = (*palette != usual.palette).then(|| format!(" --palette {palette}"));
+        let rate = (*frame_rate != usual.frame_rate).then(|| format!(" --frame-rate {frame_rate}"));
+        seconds.into_iter().chain(size).chain(palette).chain(rate).collect()
     }
 
     /// The dataset that a command line makes; `None` if [`Generation::command`] never says it that way.
@@ -42,6 +58,10 @@ impl Generation {
         let Effort { engine, minds: MindChoice { kind, .. }, foresight, particles, simulations, max_steps } =
             &mut self.effort;
         match option {
+            "--seconds" => self.form.steps = Some(steps_of(value)?),
+            "--size" => self.form.size = value.parse().ok()?,
+            "--palette" => self.form.palette = value.into(),
+            "--frame-rate" => self.form.frame_rate = value.parse().ok()?,
             "--preset" => self.preset = value.into(),
             "--events" => self.events = Some(number(&EVENTS, value)? as usize),
             "--seed" => self.seed = Some(value.parse().ok()?),
@@ -58,6 +78,14 @@ impl Generation {
     }
 }
 
+/// The number of steps in a time of video, given in seconds; `None` unless that is 1 to 2500, and a whole number of
+/// steps.
+#[must_use]
+pub fn steps_of(seconds: &str) -> Option<u32> {
+    let steps = seconds.parse::<f64>().ok().filter(|seconds| *seconds >= 1.0)? / STEP_VIDEO_SECONDS;
+    EVENT_STEPS.check(steps).is_ok().then_some(steps as u32)
+}
+
 /// A number in the range of a setting.
 fn number(setting: &Setting, text: &str) -> Option<u32> {
     text.parse().ok().filter(|number| setting.check(f64::from(*number)).is_ok())
@@ -71,7 +99,7 @@ mod tests {
     fn a_command_is_followed_exactly_as_it_was_written() {
         let plain = "phase gen-dataset --preset demo --events 12 --seed 7";
         let every = "phase gen-dataset --preset demo --events 2 --seed 1 --engine forward --minds published --one-way-turns \
-                     --foresight exact --particles 4 --simulations 20 --max-steps 6 --no-video --date-published 2026-11-23";
+                     --foresight exact --particles 4 --simulations 20 --max-steps 6 --seconds 7.5 --size 600 --palette accessible --frame-rate 60 --no-video --date-published 2026-11-23";
         for command in [plain, every] {
             let generation = Generation::of_command(command).expect(command);
             let events = generation.events.expect("events");

@@ -6,6 +6,7 @@
 //! [`mod@complete`] writes the files that describe the whole.
 
 mod command;
+
 pub mod complete;
 pub mod merge;
 pub mod plan;
@@ -20,8 +21,10 @@ use crate::{
     parallel::{self, make_all},
     resume::is_finished,
 };
+pub use command::steps_of;
 use complete::{Completed, complete};
 use phase_dataset::{
+    form::StimulusForm,
     manifest::{MANIFEST_FILE, Manifest},
     parquet,
     shard::{self, DatasetDescription, SHARD_FILE, Shard},
@@ -32,6 +35,7 @@ use phase_files::{
 };
 use plan::DatasetPlan;
 pub use scenes::any_scene;
+use serde_json::json;
 use slot::{FilledSlots, Slots};
 use std::path::{Path, PathBuf};
 
@@ -55,6 +59,8 @@ pub struct Generation {
     pub videos: bool,
     /// Date of publication in `croissant.json`, YYYY-MM-DD.
     pub date_published: Option<String>,
+    /// Length and look of the events.
+    pub form: StimulusForm,
     /// The shard to generate, from 1, and the number of shards; without it the whole.
     pub shard: Option<(usize, usize)>,
     /// Engine, minds, and their search.
@@ -96,6 +102,7 @@ impl Generation {
             out: None,
             videos: true,
             date_published: None,
+            form: StimulusForm::default(),
             shard: None,
             effort: Effort::default(),
             threads: None,
@@ -185,6 +192,7 @@ pub(crate) fn description(manifest: &Manifest, slots: usize) -> DatasetDescripti
         seed: manifest.seed,
         generator: manifest.generator.clone(),
         settings: manifest.settings.clone(),
+        form: manifest.form.clone(),
         selected: !manifest.selection.is_empty(),
         videos: manifest.events.iter().all(|entry| entry.video.is_some()),
         date_published: manifest.date_published.clone(),
@@ -200,6 +208,9 @@ fn keep_finished(out: &Path, run: &Run, what: &'static str, events: usize) -> Re
 
 /// The identity of the run that makes a dataset, or a shard of it.
 pub(crate) fn run_of(whole: &DatasetDescription, shard: Option<(usize, usize)>) -> Run {
+    let StimulusForm { steps, size, palette, frame_rate } = &whole.form;
+    let form = (!whole.form.is_default())
+        .then(|| json!({ "steps": steps, "size": size, "palette": palette, "frame_rate": frame_rate }));
     Run::new([
         ("command", "gen-dataset".into()),
         ("preset", whole.preset.as_str().into()),
@@ -207,6 +218,7 @@ pub(crate) fn run_of(whole: &DatasetDescription, shard: Option<(usize, usize)>) 
         ("seed", whole.seed.into()),
         ("generator", whole.generator.as_str().into()),
         ("settings", whole.settings.clone()),
+        ("form", form.into()),
         ("videos", whole.videos.into()),
         ("date_published", whole.date_published.as_deref().into()),
         ("shard", shard.map(|(shard, of)| format!("{shard}/{of}")).into()),

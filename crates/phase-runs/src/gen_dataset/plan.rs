@@ -5,9 +5,11 @@ use crate::{
     engine::GENERATOR,
     error::RunError,
     event_writer::{program, settings_value},
+    picture::Look,
 };
 use phase_dataset::{
     composition::Composition,
+    form::StimulusForm,
     preset::Preset,
     shard::{self, DatasetDescription},
 };
@@ -17,6 +19,7 @@ use phase_files::{
     regular,
     run::{self, Run},
 };
+use phase_model::arena::STEP_VIDEO_SECONDS;
 use phase_sim::{Engine, SimulationSettings};
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
@@ -38,6 +41,8 @@ pub struct DatasetPlan {
     pub settings: SimulationSettings,
     /// Whether events get videos.
     pub videos: bool,
+    /// Length and look of the events.
+    pub form: StimulusForm,
     /// The shard to generate (from 1) and the number of shards, if not the whole.
     pub shard: Option<(usize, usize)>,
     /// Digest of everything that determines an event besides its slot and the seed: this executable, its
@@ -63,21 +68,35 @@ impl DatasetPlan {
     }
 
     fn with_preset(generation: &Generation, place: &Path, text: &str) -> Result<Self, RunError> {
-        let preset = Preset::parse(place, text)?;
+        let mut preset = Preset::parse(place, text)?;
+        let form = generation.form.clone();
+        Look::of(&form)?;
         let count = generation.events.unwrap_or_else(|| preset.events());
         let seed = generation.seed.unwrap_or(preset.seed);
         let command = generation.command(count, seed);
         let videos = generation.videos;
-        let settings = generation.effort.settings()?;
+        let mut settings = generation.effort.settings()?;
+        if let Some(steps) = form.steps {
+            if generation.effort.max_steps.is_some() {
+                return Err(RunError::Usage(
+                    "--seconds: every event has this length; --max-steps has no use".into(),
+                ));
+            }
+            (settings.min_steps, settings.max_steps) = (steps as usize, steps as usize);
+            if let Some(selection) = &mut preset.selection {
+                (selection.min_steps, selection.max_steps) = (steps as usize, steps as usize);
+            }
+        }
         let settings_value = settings_value(&settings)?;
         let fingerprint = run::digest(&json!({
-            "program": hexadecimal(&program()), "settings": settings_value, "seed": seed, "preset": text,
+            "program": hexadecimal(&program()), "settings": settings_value, "seed": seed, "preset": text, "form": form,
         }));
         let composition = Composition::of(&preset);
         let shard = generation.shard;
         let slot_count = composition.slots(count).ok_or_else(|| {
-            let rule =
-                "the last set would be incomplete; choose a number of events that is made up of whole sets";
+            let (below, above) = composition.whole_sets_around(count);
+            let near = if below == 0 { above.to_string() } else { format!("{below} or {above}") };
+            let rule = format!("the last set would be incomplete; {near} events are whole sets");
             RunError::Usage(format!("--events {count}: {rule}"))
         })?;
         Ok(Self {
@@ -88,6 +107,7 @@ impl DatasetPlan {
             seed,
             settings,
             videos,
+            form,
             shard,
             fingerprint,
             date_published: generation.date_published.clone(),
@@ -105,8 +125,13 @@ impl DatasetPlan {
             Engine::World => String::new(),
             other => format!("-{}", other.name()),
         };
+        let form = &self.form;
+        let seconds = form
+            .steps
+            .map_or_else(String::new, |steps| format!("-{}s", f64::from(steps) * STEP_VIDEO_SECONDS));
         let shard = self.shard.map_or_else(String::new, |(shard, of)| format!("-shard{shard}of{of}"));
-        Path::new("out").join(format!("{}-seed{}{count}{engine}{shard}", self.preset.name, self.seed))
+        Path::new("out")
+            .join(format!("{}-seed{}{count}{engine}{seconds}{shard}", self.preset.name, self.seed))
     }
 
     /// The numbers of the slots to fill.
@@ -132,6 +157,7 @@ impl DatasetPlan {
             seed: self.seed,
             generator: GENERATOR.into(),
             settings: self.settings_value.clone(),
+            form: self.form.clone(),
             selected: self.preset.selection.is_some(),
             videos: self.videos,
             date_published: self.date_published.clone(),

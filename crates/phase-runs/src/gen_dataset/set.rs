@@ -1,7 +1,10 @@
 //! Filling a slot with a set: events with the same scene and seed that differ in the stance of one agent.
 
 use super::slot::{Cast, CastMember, Slots};
-use crate::{error::RunError, picture};
+use crate::{
+    error::RunError,
+    picture::{self, Look},
+};
 use phase_dataset::{
     composition::SetSlot,
     event_set::{PairEntry, SetEntry, SetPlace, member_id, set_video_path},
@@ -51,7 +54,11 @@ impl Slots<'_> {
         let pairs = PairEntry::all(&named);
         let out = self.folder.path();
         let video = if self.plan.videos {
-            Some(measured::write(out, set_video_path(id), &picture::beside(id, &events)?)?)
+            Some(measured::write(
+                out,
+                set_video_path(id),
+                &picture::beside(id, &events, &Look::of(&self.plan.form)?)?,
+            )?)
         } else {
             None
         };

@@ -8,6 +8,7 @@ use crate::{
     event_writer::{EventFiles, EventJob, EventWriter},
     interrupt,
     listener::Listener,
+    picture::Look,
     words,
 };
 use core::ops::{ControlFlow, RangeInclusive};
@@ -51,7 +52,8 @@ impl<'a> Slots<'a> {
         listener: &'a dyn Listener,
     ) -> Result<Self, RunError> {
         let activity = format!("making {}", words::events(count));
-        let event_writer = EventWriter::new(listener, &activity, folder, plan.settings, count)?;
+        let event_writer = EventWriter::new(listener, &activity, folder, plan.settings, count)?
+            .with_look(Look::of(&plan.form)?);
         Ok(Self { plan, folder, event_writer, scenes: Scenes::of(plan), listener })
     }
 
@@ -81,6 +83,7 @@ impl<'a> Slots<'a> {
                 Some(Err(refusal)) => {
                     let reason = refusal.reason.name();
                     self.listener.detail(&format!("{id} attempt {}: {reason}", number + 1));
+                    self.event_writer.tried();
                     record.refused.push(refusal);
                     record.save(&path)?;
                 }

@@ -8,14 +8,14 @@ use crate::{
     interrupt::requested,
     listener::Listener,
     parallel::{self, make_all},
-    picture::{self, BeliefFrame, ObserverFrame, RenderedState},
+    picture::{self, BeliefFrame, Look, ObserverFrame, RenderedState},
     source::EventInput,
     words,
 };
 use phase_event::{Recording, SimulationRecord};
 use phase_files::{WriteError, atomic, serialize_told};
 use phase_model::{AgentId, arena::SUBSTEPS};
-use phase_render::{Palette, PaletteName};
+use phase_render::Palette;
 use phase_sim::SimulationSettings;
 use serde::Serialize;
 use serde_json::json;
@@ -38,8 +38,8 @@ pub struct Rendering {
     pub out: PathBuf,
     /// Additions to the bodies.
     pub view: View,
-    /// Colours.
-    pub palette: PaletteName,
+    /// Colours, and size and rate of videos.
+    pub look: Look,
     /// Number of frames of a picture, at least 1; without it there is a video.
     pub contact_sheet: Option<usize>,
     /// Number of threads; without it that of this machine's cores.
@@ -147,7 +147,7 @@ impl Rendering {
     ) -> Result<bool, RunError> {
         let id = &recording.id;
         let physics = recording.scene.physics();
-        let palette = self.palette.palette();
+        let palette = self.look.palette;
         let agents = self.view.agents();
         let minds: Vec<Vec<BeliefFrame>> = match &recording.simulation {
             _ if agents.is_empty() => Vec::new(),
@@ -191,7 +191,7 @@ impl Rendering {
                 let items: Vec<RenderedState<'_>> = items.collect();
                 picture::write_sheet(path, id, &physics, palette, &items, count).map(|()| true)
             }
-            None => picture::write_video(path, id, &physics, palette, items, &requested),
+            None => picture::write_video(path, id, &physics, &self.look, items, &requested),
         };
         result.map_err(|error| match error {
             RunError::Write(error) => RunError::Output(error),

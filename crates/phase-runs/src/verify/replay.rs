@@ -9,12 +9,13 @@ use crate::{
     gen_dataset::scenes::Scenes,
     listener::{Listener, Silent},
     parallel::make_all,
-    picture, words,
+    picture::{self, Look},
+    words,
 };
 use core::ops::ControlFlow;
 use phase_dataset::{
     event_set::SetEntry,
-    manifest::{EventEntry, Manifest},
+    manifest::{EventEntry, MANIFEST_FILE, Manifest},
     phase_events,
 };
 use phase_event::{Event, EventReadError, Recording, SimulationRecord};
@@ -38,16 +39,24 @@ pub(super) fn problems(
         Ok(origin) => origin,
         Err(problems) => return Ok(problems),
     };
+    let look = match Look::of(&manifest.form) {
+        Ok(look) => look,
+        Err(error) => {
+            let problem = Problem::Shape { what: "dataset manifest", rule: error.to_string() };
+            return Ok(vec![FileError { file: folder.join(MANIFEST_FILE), problem }]);
+        }
+    };
     let scenes = origin.scenes();
     let count = manifest.events.len();
     let progress = listener.progress_over(&format!("replaying {}", words::events(count)), count);
     let mut problems = over(folder, threads, count, |k| {
-        let problem = event(folder, &manifest.events[k], k, &origin, &scenes);
+        let problem = event((folder, &look), &manifest.events[k], k, &origin, &scenes);
         progress.steps(1);
         problem
     })?;
-    problems
-        .extend(over(folder, threads, manifest.sets.len(), |k| set(folder, manifest, &manifest.sets[k]))?);
+    problems.extend(over(folder, threads, manifest.sets.len(), |k| {
+        set((folder, &look), manifest, &manifest.sets[k])
+    })?);
     drop(progress);
     if problems.is_empty() {
         problems = derived::problems(folder, manifest, &Silent)?;
@@ -69,7 +78,7 @@ fn over(
 
 /// One event, by its index.
 fn event(
-    folder: &Path,
+    (folder, look): (&Path, &Look),
     entry: &EventEntry,
     index: usize,
     origin: &Origin,
@@ -82,19 +91,19 @@ fn event(
     found.map_err(|(field, rule)| recorded.fail(field, rule))?;
     recorded.check_thoughts(&settings)?;
     match &entry.video {
-        Some(file) => check_video(folder, file, video(&entry.id, &recorded.simulation.event)),
+        Some(file) => check_video(folder, file, video(&entry.id, &recorded.simulation.event, look)),
         None => Ok(()),
     }
 }
 
 /// The video of a set.
-fn set(folder: &Path, manifest: &Manifest, set: &SetEntry) -> Result<(), FileError> {
+fn set((folder, look): (&Path, &Look), manifest: &Manifest, set: &SetEntry) -> Result<(), FileError> {
     let Some(file) = &set.video else { return Ok(()) };
     let of_set = |entry: &&EventEntry| entry.set.as_ref().is_some_and(|place| place.set == set.id);
     let members = manifest.events.iter().filter(of_set).map(|entry| Recorded::read(folder, entry));
     let members = members.collect::<Result<Vec<_>, _>>()?;
     let events: Vec<&Event> = members.iter().map(|recorded| &recorded.simulation.event).collect();
-    check_video(folder, file, picture::beside(&set.id, &events))
+    check_video(folder, file, picture::beside(&set.id, &events, look))
 }
 
 fn check_video(folder: &Path, entry: &FileEntry, drawn: Result<Vec<u8>, RunError>) -> Result<(), FileError> {

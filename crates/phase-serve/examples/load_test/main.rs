@@ -160,6 +160,7 @@ fn serve(options: &Options, scenes: Vec<Item>, game: GameSettings) -> Result<(),
     let settings = ServerSettings {
         listen: ([127, 0, 0, 1], 0).into(),
         host: None,
+        only_studies: false,
         behind_proxy: false,
         folder: folder.path().to_owned(),
         // Two kinds of clients that do not behave have rooms.

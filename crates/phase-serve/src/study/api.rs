@@ -41,9 +41,13 @@ pub(super) fn routes() -> Router<Arc<App>> {
 }
 
 /// The studies: `{"studies": [{"name", "title"}…]}`.
-pub(super) async fn list(State(app): State<Arc<App>>) -> Json<Value> {
+/// Where raters are to find nothing but their own study, it is not there.
+pub(super) async fn list(State(app): State<Arc<App>>) -> Result<Json<Value>, ApiError> {
+    if app.settings.only_studies {
+        return Err(ApiError::missing());
+    }
     let all = app.studies.0.values().map(|running| json!({ "name": running.name, "title": running.title }));
-    Json(json!({ "studies": all.collect::<Vec<_>>() }))
+    Ok(Json(json!({ "studies": all.collect::<Vec<_>>() })))
 }
 
 /// Without the last stroke, so that the relative links of the page are right. What came with the address goes

@@ -28,6 +28,7 @@ pub(crate) fn settings() -> ServerSettings {
     ServerSettings {
         listen: ([127, 0, 0, 1], 0).into(),
         host: None,
+        only_studies: false,
         behind_proxy: false,
         folder: tempfile::tempdir().expect("a folder").keep(),
         rooms: 50,

@@ -43,6 +43,7 @@ pub(crate) fn bind(folder: &Path, studies: &[PathBuf]) -> Result<Server, phase_s
     let settings = ServerSettings {
         listen: ([127, 0, 0, 1], 0).into(),
         host: None,
+        only_studies: false,
         behind_proxy: false,
         folder: folder.join("out"),
         rooms: 1,

@@ -1,10 +1,11 @@
 //! Analysis of answers: who took part, how far raters agree, whether they are right, how human-like they find
-//! the events, and what interactions they see.
+//! the events, what interactions they see, and all of this by condition, set and video.
 //!
 //! Only raters count who have answered everything and passed the catch trials ([`Standing::Complete`]).
 //! Intervals are 95 % and over videos: of means and α by the percentile bootstrap, of shares of videos
-//! Wilson's.
+//! Wilson's. Those of one set or one video are over its judgements.
 
+mod groups;
 mod judgements;
 mod measures;
 mod report;
@@ -16,6 +17,7 @@ use crate::{
     forms::{Form, Forms},
     record::{Rater, Standing},
 };
+use groups::{by_condition, by_set, by_video, confusion};
 use judgements::Judgements;
 use phase_eval::Estimate;
 use serde::Serialize;
@@ -147,6 +149,40 @@ pub struct Categories {
     pub categories: Vec<Category>,
 }
 
+/// The answers about the videos of one condition, of one set, or about one video.
+#[derive(Clone, PartialEq, Debug, Serialize)]
+pub struct Answers {
+    /// The condition or set, or the video's id.
+    pub name: String,
+    /// Videos with a judgement.
+    pub videos: usize,
+    /// Judgements of them.
+    pub judgements: usize,
+    /// Judgements that give each relation or type of interaction, in the order of the form.
+    pub given: Vec<(String, usize)>,
+    /// The mean share of judgements with the right relation.
+    pub relation_right: Option<Estimate>,
+    /// The mean share of goals, over both agents, that are named rightly.
+    pub goals_right: Option<Estimate>,
+    /// The mean rating of human-likeness, 1 to 5.
+    pub human_likeness: Option<Estimate>,
+}
+
+/// Which answers videos of each label get.
+#[derive(Clone, PartialEq, Debug, Serialize)]
+pub struct Confusion {
+    /// The question: `relation`, or `interactions`, whose labels are the conditions.
+    pub question: &'static str,
+    /// The labels, one for each row.
+    pub labels: Vec<String>,
+    /// The answers, one for each column.
+    pub answers: Vec<String>,
+    /// Judgements of videos with the label that give the answer, by label and answer.
+    pub counts: Vec<Vec<usize>>,
+    /// Judgements of videos with the label.
+    pub judgements: Vec<usize>,
+}
+
 /// The analysis of the answers to a study. Parts that the form does not ask for are empty.
 #[derive(Clone, PartialEq, Debug, Serialize)]
 pub struct Analysis {
@@ -164,6 +200,14 @@ pub struct Analysis {
     pub agreement: Vec<Agreement>,
     /// Whether they are right, where labels are known.
     pub accuracy: Vec<Accuracy>,
+    /// Which answers videos of each label get; `None` without labels.
+    pub confusion: Option<Confusion>,
+    /// The answers by condition; where a video has none, its kind of event stands for it.
+    pub conditions: Vec<Answers>,
+    /// The answers by set.
+    pub sets: Vec<Answers>,
+    /// The answers by video.
+    pub videos: Vec<Answers>,
     /// Human-likeness of the events, by source.
     pub human_likeness: Vec<Likeness>,
     /// The differences between every two sources.
@@ -194,6 +238,10 @@ impl Analysis {
             coverage: judgements.coverage(config.stimuli.len()),
             agreement: measures::agreement(&judgements, config, forms),
             accuracy: measures::accuracy(&judgements, &sources, config.form, config.seed),
+            confusion: confusion(&judgements, config.form, forms),
+            conditions: by_condition(&judgements, config.form, forms, config.seed),
+            sets: by_set(&judgements, config.form, forms, config.seed),
+            videos: by_video(&judgements, config.form, forms, config.seed),
             human_likeness_differences: if asks_goals {
                 measures::differences(&judgements, &names, config.seed)
             } else {

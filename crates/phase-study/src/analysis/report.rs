@@ -1,9 +1,9 @@
 //! An analysis as a text with tables and plots.
 
-use super::{Accuracy, Analysis, Categories, Share};
+use super::{Accuracy, Analysis, Answers, Categories, Confusion, Share};
 use phase_document::{
     document::{Block, Document},
-    plot::bars,
+    plot::{bars, matrix},
 };
 use phase_eval::Estimate;
 
@@ -37,6 +37,8 @@ pub fn document(title: &str, analysis: &Analysis) -> Document {
     if !analysis.accuracy.is_empty() {
         blocks.extend(accuracy(&analysis.accuracy));
     }
+    blocks.extend(analysis.confusion.iter().flat_map(confusion));
+    blocks.extend(by_condition(&analysis.conditions));
     if !analysis.human_likeness.is_empty() {
         blocks.extend(likeness(analysis));
     }
@@ -52,6 +54,13 @@ pub fn document(title: &str, analysis: &Analysis) -> Document {
         vec![what, estimate(it.alpha, 3), it.videos.to_string()]
     };
     blocks.push(table(&["question", "α", "videos"], analysis.agreement.iter().map(row).collect()));
+    for (title, groups) in [("Sets", &analysis.sets), ("Videos", &analysis.videos)] {
+        if !groups.is_empty() {
+            blocks.push(Block::Heading(title.into()));
+            blocks.push(Block::Text("Intervals are over the judgements of each.".into()));
+            blocks.push(answers(groups));
+        }
+    }
     Document { title: title.into(), blocks }
 }
 
@@ -67,6 +76,91 @@ fn accuracy(accuracies: &[Accuracy]) -> Vec<Block> {
     };
     let head = ["question", "source", "judgements that are right", "majorities that are right", "videos"];
     vec![Block::Heading("Accuracy".into()), table(&head, accuracies.iter().map(row).collect())]
+}
+
+/// Answers by label: counts as a table, shares as a plot.
+fn confusion(confusion: &Confusion) -> Vec<Block> {
+    let by_label = confusion.labels.iter().zip(&confusion.counts).zip(&confusion.judgements);
+    let shares = by_label.clone().map(|((_, counts), &judgements)| {
+        counts.iter().map(|&count| count as f64 / judgements.max(1) as f64).collect()
+    });
+    let shares: Vec<Vec<f64>> = shares.collect();
+    let (title, text) = if confusion.question == "relation" {
+        (
+            "Answers by label",
+            "Each row has the judgements of videos with one label; right answers are in the column of the same name.",
+        )
+    } else {
+        (
+            "Answers by condition",
+            "Each row has one condition, and how many of its judgements name each type of interaction.",
+        )
+    };
+    // The many types of interaction fit in a picture, not in the columns of a table.
+    let mut blocks = vec![Block::Heading(title.into()), Block::Text(text.into())];
+    if confusion.question == "relation" {
+        let mut head = vec!["label".to_owned()];
+        head.extend(confusion.answers.iter().cloned());
+        head.push("judgements".into());
+        let row = |((label, counts), judgements): ((&String, &Vec<usize>), &usize)| {
+            let mut row = vec![label.clone()];
+            row.extend(counts.iter().map(usize::to_string));
+            row.push(judgements.to_string());
+            row
+        };
+        blocks.push(Block::Table { head, rows: by_label.map(row).collect() });
+    }
+    let title = "Share of the judgements of each row (%)";
+    let svg = matrix(title, &confusion.labels, &confusion.answers, &shares);
+    blocks.push(Block::Plot { file: "confusion.svg", title: title.into(), svg });
+    blocks
+}
+
+fn by_condition(conditions: &[Answers]) -> Vec<Block> {
+    if conditions.is_empty() {
+        return Vec::new();
+    }
+    let mut blocks = vec![Block::Heading("Conditions".into()), answers(conditions)];
+    let bar = |it: &Answers| it.relation_right.map(|right| (it.name.clone(), 100.0 * right.value));
+    let rows: Vec<(String, f64)> = conditions.iter().filter_map(bar).collect();
+    if !rows.is_empty() {
+        let title = "Judgements with the right relation, by condition";
+        let svg = bars(title, " %", &rows);
+        blocks.push(Block::Plot { file: "conditions.svg", title: title.into(), svg });
+    }
+    blocks
+}
+
+/// A column of a table of answers: its name, its value, and how many decimals it has.
+type Measure = (&'static str, fn(&Answers) -> Option<Estimate>, usize);
+
+/// A table of answers, with the columns that some row has.
+fn answers(groups: &[Answers]) -> Block {
+    let mut head = vec!["name", "videos", "judgements"];
+    let measures: [Measure; 3] = [
+        ("right relations", |it| it.relation_right, 3),
+        ("right goals", |it| it.goals_right, 3),
+        ("human-likeness", |it| it.human_likeness, 2),
+    ];
+    let shown: Vec<_> =
+        measures.into_iter().filter(|(_, of, _)| groups.iter().any(|it| of(it).is_some())).collect();
+    head.extend(shown.iter().map(|(name, ..)| *name));
+    head.push("most frequent answers");
+    let row = |it: &Answers| {
+        let mut row = vec![it.name.clone(), it.videos.to_string(), it.judgements.to_string()];
+        row.extend(shown.iter().map(|(_, of, digits)| estimate(of(it), *digits)));
+        row.push(most_frequent(it));
+        row
+    };
+    table(&head, groups.iter().map(row).collect())
+}
+
+/// The three answers that were given most, with their numbers.
+fn most_frequent(answers: &Answers) -> String {
+    let mut given: Vec<&(String, usize)> = answers.given.iter().filter(|(_, count)| *count > 0).collect();
+    given.sort_by_key(|(_, count)| core::cmp::Reverse(*count));
+    let words = given.iter().take(3).map(|(choice, count)| format!("{choice} {count}"));
+    words.collect::<Vec<_>>().join(", ")
 }
 
 fn likeness(analysis: &Analysis) -> Vec<Block> {

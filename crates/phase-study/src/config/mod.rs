@@ -10,7 +10,7 @@ use thiserror::Error;
 
 /// The value of the field `format` of configurations.
 pub const STUDY_FORMAT: &str = "phase-study/1";
-/// Minutes without a sign of a rater after which its places go to others, unless the configuration says
+/// Minutes without a sign of a rater after which their places go to others, unless the configuration says
 /// otherwise.
 pub(crate) const MINUTES: u32 = 60;
 /// The members of the address that are kept, unless the configuration says otherwise: those of Prolific.
@@ -38,6 +38,10 @@ pub struct Stimulus {
     pub source: String,
     /// Number of objects in the video, 0 to 2, on which the goals depend that are offered.
     pub objects: u8,
+    /// The set that it belongs to, such as a minimal pair; a name of its own, as of ids.
+    pub set: Option<String>,
+    /// What was varied and has this value in the video, such as `helping` or `hinder`; a word, as of ids.
+    pub condition: Option<String>,
     /// Labels of the video, for accuracies.
     pub labels: Labels,
 }
@@ -53,7 +57,7 @@ pub struct Labels {
     pub kind: Option<String>,
 }
 
-/// A video with an answer that everybody who watches gives.
+/// A video with a known answer.
 #[derive(Clone, PartialEq, Debug)]
 pub struct CatchTrial {
     /// Its id.
@@ -107,15 +111,19 @@ pub struct StudyConfig {
     pub videos_per_rater: u32,
     /// Whether a rater sees videos of one source alone.
     pub between_sources: bool,
+    /// Whether a rater sees no two videos of a set.
+    pub one_of_each_set: bool,
+    /// Whether a rater may answer before the video has been played to its end.
+    pub answer_before_end: bool,
     /// Raters that count, after whom the study is full.
     pub raters: u32,
     /// The end of the study, as raters see it.
     pub completion: Completion,
     /// Members of the address that are kept; the first identifies the rater.
     pub parameters: Vec<String>,
-    /// Whether nobody takes part without the first of them.
+    /// Whether the first of them is required to take part.
     pub identity_required: bool,
-    /// Minutes without a sign of a rater after which its places go to others.
+    /// Minutes without a sign of a rater after which their places go to others.
     pub minutes: u32,
     /// Seed of assignments.
     pub seed: u64,
@@ -161,13 +169,43 @@ impl StudyConfig {
     }
 }
 
-/// Raters that it takes until every video has had so many: for each group of so many videos, judgements
-/// wanted over videos a rater, rounded up.
+/// Numbers of a group of videos, of which a rater sees one group.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct GroupSize {
+    /// Videos in all.
+    pub videos: usize,
+    /// Those of them that one rater may see: all, or one of each set and those of no set.
+    pub for_one: usize,
+    /// The fewest raters by whom every video can be seen once.
+    pub fewest: usize,
+}
+
+impl GroupSize {
+    /// The numbers of some videos.
+    #[must_use]
+    pub fn of<'a>(stimuli: impl IntoIterator<Item = &'a Stimulus>, one_of_each_set: bool) -> Self {
+        let (mut videos, mut sets) = (0, BTreeMap::<&str, usize>::new());
+        let mut in_sets = 0;
+        for stimulus in stimuli {
+            videos += 1;
+            if let Some(set) = stimulus.set.as_deref().filter(|_| one_of_each_set) {
+                in_sets += 1;
+                *sets.entry(set).or_default() += 1;
+            }
+        }
+        let fewest = sets.values().copied().max().unwrap_or(1);
+        Self { videos, for_one: videos - in_sets + sets.len(), fewest }
+    }
+}
+
+/// Raters that it takes until every video has had `raters_per_video`: for each group, judgements wanted over
+/// videos a rater, rounded up.
 #[must_use]
-pub fn raters_needed(groups: &[usize], raters_per_video: u32, videos_per_rater: u32) -> u32 {
-    let needed = |&videos: &usize| {
-        let each = u64::from(videos_per_rater).min(videos as u64).max(1);
-        (videos as u64 * u64::from(raters_per_video)).div_ceil(each)
+pub fn raters_needed(groups: &[GroupSize], raters_per_video: u32, videos_per_rater: u32) -> u32 {
+    let needed = |group: &GroupSize| {
+        let each = u64::from(videos_per_rater).min(group.for_one as u64).max(1);
+        let wanted = u64::from(raters_per_video);
+        (group.videos as u64 * wanted).div_ceil(each).max(group.fewest as u64 * wanted)
     };
     u32::try_from(groups.iter().map(needed).sum::<u64>()).unwrap_or(u32::MAX)
 }

@@ -1,7 +1,7 @@
 //! Reading a configuration.
 
 use super::{
-    Completion, ConfigError, MINUTES, PARAMETERS, STUDY_FORMAT, StudyConfig, raters_needed,
+    Completion, ConfigError, GroupSize, MINUTES, PARAMETERS, STUDY_FORMAT, StudyConfig, raters_needed,
     stimuli::{self, distinct},
 };
 use crate::{
@@ -10,7 +10,7 @@ use crate::{
 };
 use phase_model::json::{Field, FieldError, check_format, parse};
 
-const MEMBERS: [&str; 21] = [
+const MEMBERS: [&str; 23] = [
     "format",
     "name",
     "title",
@@ -26,6 +26,8 @@ const MEMBERS: [&str; 21] = [
     "raters_per_video_at_most",
     "videos_per_rater",
     "between_sources",
+    "one_of_each_set",
+    "answer_before_end",
     "raters",
     "completion",
     "parameters",
@@ -84,6 +86,8 @@ fn config(root: &Field<'_>, forms: &Forms) -> Result<StudyConfig, FieldError> {
         raters_per_video_at_most: at_most.unwrap_or(raters_per_video),
         videos_per_rater,
         between_sources: truth(root, "between_sources")?,
+        one_of_each_set: truth(root, "one_of_each_set")?,
+        answer_before_end: truth(root, "answer_before_end")?,
         raters: 0,
         completion: completion(root)?,
         parameters: parameters(root)?,
@@ -97,7 +101,17 @@ fn config(root: &Field<'_>, forms: &Forms) -> Result<StudyConfig, FieldError> {
     if config.identity_required && config.parameters.is_empty() {
         return Err(root.required("identity_required")?.error("needs at least one of `parameters`"));
     }
-    let groups: Vec<usize> = config.groups().iter().map(Vec::len).collect();
+    if config.one_of_each_set && config.stimuli.iter().all(|stimulus| stimulus.set.is_none()) {
+        return Err(root.required("one_of_each_set")?.error("needs stimuli with a `set`"));
+    }
+    let size =
+        |group: &Vec<usize>| GroupSize::of(group.iter().map(|&k| &config.stimuli[k]), config.one_of_each_set);
+    let groups: Vec<GroupSize> = config.groups().iter().map(size).collect();
+    let most = groups.iter().map(|group| group.for_one).max().unwrap_or_default();
+    if config.one_of_each_set && videos_per_rater as usize > most {
+        let rule = format!("must be at most {most}: with `one_of_each_set` a rater sees no more");
+        return Err(root.required("videos_per_rater")?.error(rule));
+    }
     let needed = raters_needed(&groups, raters_per_video, videos_per_rater);
     config.raters = optional("raters", 1, MOST)?.unwrap_or(needed);
     Ok(config)

@@ -52,9 +52,10 @@ pub(super) fn distinct<'a>(
 }
 
 fn stimulus(field: &Field<'_>, forms: &Forms) -> Result<Stimulus, FieldError> {
-    field.only(&["id", "video", "source", "objects", "goals", "relation", "kind"])?;
+    field.only(&["id", "video", "source", "objects", "set", "condition", "goals", "relation", "kind"])?;
     let objects = objects(field)?;
-    let source = field.optional("source")?.map(|field| id(&field)).transpose()?;
+    let name = |name: &str| field.optional(name)?.map(|field| id(&field)).transpose();
+    let (source, set, condition) = (name("source")?, name("set")?, name("condition")?);
     let relations = [Relation::Friendly, Relation::Neutral, Relation::Adversarial]
         .map(|relation| (relation.name(), relation.name()));
     let kinds = EventKind::ALL.map(|kind| (kind.name(), kind.name()));
@@ -71,6 +72,8 @@ fn stimulus(field: &Field<'_>, forms: &Forms) -> Result<Stimulus, FieldError> {
         video: video(&field.required("video")?)?,
         source: source.unwrap_or_else(|| "phase".into()),
         objects,
+        set,
+        condition,
         labels,
     })
 }

@@ -6,10 +6,13 @@ mod text;
 pub use goals::known_goals;
 
 use crate::{
-    config::{CatchTrial, Stimulus, raters_needed},
+    config::{CatchTrial, GroupSize, Stimulus, raters_needed},
     forms::Form,
 };
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// Videos of each published experiment, or of each of its sources.
+const PUBLISHED_VIDEOS: usize = 100;
 
 /// An experiment whose numbers a study takes over.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -69,6 +72,13 @@ pub struct Design {
     pub stimuli: Vec<Stimulus>,
     /// Those with a known answer.
     pub catch_trials: Vec<CatchTrial>,
+    /// Name of the study, part of its address; that of the experiment if `None`.
+    pub name: Option<String>,
+    /// Videos for each rater; if `None` the experiment's number of as many videos as the experiment had, and all
+    /// of fewer.
+    pub videos_per_rater: Option<u32>,
+    /// Whether a rater sees no two videos of a set.
+    pub one_of_each_set: bool,
     /// Seed of assignments.
     pub seed: u64,
 }
@@ -94,29 +104,30 @@ impl Design {
         self.experiment == Experiment::HumanLikeness && sources.len() > 1
     }
 
-    /// The numbers of the experiment, in proportion to the number of videos.
+    /// The numbers of the experiment.
     #[must_use]
     pub fn numbers(&self) -> Numbers {
         let videos = self.stimuli.len().max(1);
-        let groups: Vec<usize> = if self.between_sources() {
-            let sources: BTreeSet<&str> =
-                self.stimuli.iter().map(|stimulus| stimulus.source.as_str()).collect();
-            let count =
-                |source: &&str| self.stimuli.iter().filter(|stimulus| stimulus.source == **source).count();
-            sources.iter().map(count).collect()
-        } else {
-            vec![videos]
-        };
-        let (wanted, each) = match self.experiment {
+        let groups = self.groups();
+        let (wanted, published) = match self.experiment {
             Experiment::Interactions => (10, 8),
             Experiment::HumanLikeness => (18, 20),
             Experiment::Relations => (10, 20),
         };
-        let each = u32::try_from(groups.iter().copied().min().unwrap_or(1).max(1)).unwrap_or(each).min(each);
+        let least = groups.iter().map(|group| group.for_one).min().unwrap_or(1).max(1);
+        let least = u32::try_from(least).unwrap_or(u32::MAX);
+        let is_as_published = groups.iter().all(|group| group.videos >= PUBLISHED_VIDEOS);
+        let each = match self.videos_per_rater {
+            Some(each) => each,
+            None if is_as_published => published.min(least),
+            None => least,
+        };
         let needed = raters_needed(&groups, wanted, each);
         let raters = match self.experiment.raters_per_hundred_videos() {
-            None => needed,
-            Some(share) => u32::try_from((videos * share).div_ceil(100)).unwrap_or(u32::MAX).max(needed),
+            Some(share) if each == published => {
+                u32::try_from((videos * share).div_ceil(100)).unwrap_or(u32::MAX).max(needed)
+            }
+            _ => needed,
         };
         let most = match self.experiment {
             Experiment::Relations => 19,
@@ -130,6 +141,17 @@ impl Design {
             videos_per_rater: each,
             raters,
         }
+    }
+
+    /// The groups of videos of which a rater sees one.
+    fn groups(&self) -> Vec<GroupSize> {
+        let mut groups = BTreeMap::<&str, Vec<&Stimulus>>::new();
+        for stimulus in &self.stimuli {
+            let source = if self.between_sources() { stimulus.source.as_str() } else { "" };
+            groups.entry(source).or_default().push(stimulus);
+        }
+        let size = |stimuli: Vec<&Stimulus>| GroupSize::of(stimuli, self.one_of_each_set);
+        groups.into_values().map(size).collect()
     }
 
     /// The configuration as a file for people to edit, with comments.

@@ -18,7 +18,7 @@ pub(super) fn file(design: &Design) -> String {
     let members: Vec<(&str, String)> = vec![
         ("format", line(&json!(STUDY_FORMAT))),
         ("_comment", lines(comments().into_iter().map(Value::from))),
-        ("name", line(&json!(design.experiment.name()))),
+        ("name", line(&json!(design.name.as_deref().unwrap_or(design.experiment.name())))),
         ("title", line(&json!(title(design.experiment)))),
         ("form", line(&json!(design.experiment.form().name()))),
         ("introduction", lines(introduction().into_iter().map(Value::from))),
@@ -30,6 +30,8 @@ pub(super) fn file(design: &Design) -> String {
         ("videos_per_rater", numbers.videos_per_rater.to_string()),
         ("raters", numbers.raters.to_string()),
         ("between_sources", design.between_sources().to_string()),
+        ("one_of_each_set", design.one_of_each_set.to_string()),
+        ("answer_before_end", "false".into()),
         ("minutes", MINUTES.to_string()),
         ("parameters", line(&json!(PARAMETERS))),
         ("identity_required", "false".into()),
@@ -69,7 +71,12 @@ fn stimulus(stimulus: &Stimulus) -> Value {
     if let Some(goals) = &stimulus.labels.goals {
         value["goals"] = goals.iter().map(one_or_more).collect();
     }
-    for (name, label) in [("relation", &stimulus.labels.relation), ("kind", &stimulus.labels.kind)] {
+    for (name, label) in [
+        ("set", &stimulus.set),
+        ("condition", &stimulus.condition),
+        ("relation", &stimulus.labels.relation),
+        ("kind", &stimulus.labels.kind),
+    ] {
         if let Some(label) = label {
             value[name] = json!(label);
         }
@@ -93,12 +100,14 @@ fn comments() -> Vec<&'static str> {
         "demographics: nothing is asked unless it is here. A question is {name, text, kind, required}: kind whole (from, to), one (choices) or \
          text (longest).",
         "Each video is wanted by raters_per_video raters and gets no more than raters_per_video_at_most. The study is full when raters have \
-         finished. Who gives no sign for so many minutes leaves its places to others.",
-        "parameters: members of the address that are kept, such as Prolific's; who comes with the same first one again goes on where it was.",
+         finished. A rater who gives no sign for this many minutes loses their places to others.",
+        "one_of_each_set: whether a rater sees no two videos of a set. answer_before_end: whether a rater may answer before the video has ended.",
+        "parameters: members of the address that are kept, such as Prolific's.",
         "completion: a code, and an https address, shown at the end. With Prolific: https://app.prolific.com/submissions/complete?cc=CODE.",
-        "catch_trials: {id, video, objects, expected}, such as expected {\"relation\": \"neutral\"}. Who fails more than catch_failures_allowed \
-         does not count.",
-        "stimuli: video is relative to this file; goals, relation and kind are for accuracies alone, raters do not see them.",
+        "catch_trials: {id, video, objects, expected}, such as expected {\"relation\": \"neutral\"}. Raters who fail more than \
+         catch_failures_allowed do not count.",
+        "stimuli: video is relative to this file; condition is what the report compares; goals, relation and kind are the right answers. Raters \
+         see none of these.",
     ]
 }
 

@@ -1,8 +1,8 @@
 //! Answers for others: a Psych-DS dataset, and `phase-ratings/1`.
 //!
 //! Raters who withdrew or did not agree are in neither. Those who failed catch trials or have not finished
-//! are marked in the tables of the dataset and left out of the ratings. Raters are numbers; with what they
-//! came is only exported on demand.
+//! are marked in the tables of the dataset and left out of the ratings. Raters are numbers; the members of the
+//! address with which they came are only exported on demand.
 
 mod csv;
 mod tables;
@@ -27,8 +27,8 @@ pub struct File {
 }
 
 /// The Psych-DS dataset of a study (<https://psych-ds.github.io/>): `dataset_description.json`, `README.md`
-/// and two tables in `data`, of answers and of raters; `docs/reference/formats/studies.md` has their columns.
-/// With `external_ids` the table of raters has with what they came.
+/// and three tables in `data`, of answers, of raters and of videos; `docs/reference/formats/studies.md` has
+/// their columns. With `external_ids` the table of raters has the members of the address with which they came.
 #[must_use]
 pub fn psych_ds(config: &StudyConfig, forms: &Forms, raters: &[Rater], external_ids: bool) -> Vec<File> {
     let present: Vec<&Rater> = raters.iter().filter(|rater| rater.departure.is_none()).collect();
@@ -37,6 +37,7 @@ pub fn psych_ds(config: &StudyConfig, forms: &Forms, raters: &[Rater], external_
     let tables = [
         ("answers", tables::answers(config, forms, &present)),
         ("raters", tables::raters(config, &present, external_ids)),
+        ("stimuli", tables::stimuli(config)),
     ];
     let mut files: Vec<File> = Vec::new();
     for (what, table) in &tables {
@@ -47,11 +48,11 @@ pub fn psych_ds(config: &StudyConfig, forms: &Forms, raters: &[Rater], external_
     }
     let description = description(config, &tables.each_ref().map(|(_, table)| table));
     files.push(File { path: "dataset_description.json".into(), text: format!("{description:#}\n") });
-    files.push(File { path: "README.md".into(), text: readme(config, &files[0].path, &files[1].path) });
+    files.push(File { path: "README.md".into(), text: readme(config, [0, 1, 2].map(|k| &*files[k].path)) });
     files
 }
 
-fn description(config: &StudyConfig, tables: &[&Table; 2]) -> Value {
+fn description(config: &StudyConfig, tables: &[&Table; 3]) -> Value {
     let mut variables = BTreeMap::new();
     for column in tables.iter().flat_map(|table| table.columns()) {
         variables.entry(column.name.as_str()).or_insert_with(|| {
@@ -76,10 +77,11 @@ fn description(config: &StudyConfig, tables: &[&Table; 2]) -> Value {
     })
 }
 
-fn readme(config: &StudyConfig, answers: &str, raters: &str) -> String {
+fn readme(config: &StudyConfig, [answers, raters, stimuli]: [&str; 3]) -> String {
     format!(
         "# {}\n\nA [Psych-DS](https://psych-ds.github.io/) dataset of the study `{}`. `{answers}` has a row for each answer, `{raters}` one \
-         for each rater; `dataset_description.json` describes their columns. Who withdrew is in neither. Rows with `standing` other than \
+         for each rater, `{stimuli}` one for each video; `dataset_description.json` describes their columns. Times are in milliseconds. \
+         Raters who withdrew are in none of them. Rows with `standing` other than \
          `complete` do not count in the analysis. An apostrophe stands before texts that a spreadsheet would take for formulas.\n",
         config.title, config.name
     )

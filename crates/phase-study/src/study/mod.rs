@@ -1,4 +1,4 @@
-//! A study that is under way: what each rater sees next, and what it answers.
+//! A study that is under way: what each rater sees next, and what they answer.
 
 mod error;
 mod names;
@@ -36,7 +36,7 @@ const MOST_PLAYS: i64 = 10_000;
 /// The answer to a rater who comes.
 #[derive(Clone, PartialEq, Debug, Serialize)]
 pub struct Joined {
-    /// The rater's token, with which it shows who it is.
+    /// The rater's token, which identifies them.
     pub token: Token,
     /// The first thing that the rater sees.
     pub stage: Stage,
@@ -52,11 +52,11 @@ struct Given<'a> {
 
 /// A study with its answers: the state machine that raters go through.
 ///
-/// Somebody who comes is known by a random token, and nothing else: the id of a panel in the address is data.
-/// It is a rater once it has agreed or refused; before that nothing of it is stored.
+/// A visitor is known by a random token, and nothing else: the id of a panel in the address is data. They are a
+/// rater once they have agreed or refused; before that nothing is stored.
 ///
-/// A rater comes ([`Study::join`]), agrees, says something of itself, reads the instructions and answers its
-/// trials, in this order. Each method takes one of these steps for the rater with a token and returns the
+/// A rater comes ([`Study::join`]), agrees, answers questions about themselves, reads the instructions and answers
+/// their trials, in this order. Each method takes one of these steps for the rater with a token and returns the
 /// [`Stage`] that follows; a step out of order is refused and changes nothing. Once a method returns, what it
 /// took is on the disk. Times are [`Millis`], given by the caller.
 #[derive(Debug)]
@@ -130,8 +130,8 @@ impl Study {
         self.videos.iter().map(|(name, (_, file))| (name.as_str(), file.as_str()))
     }
 
-    /// Lets somebody in. `parameters` are the members of the address with which it came; those that the study
-    /// does not keep are ignored. It is known by `token` from then on; nothing is stored before it agrees.
+    /// Lets somebody in. `parameters` are the members of the address with which they came; those that the study
+    /// does not keep are ignored. They are known by `token` from then on; nothing is stored before they agree.
     ///
     /// # Errors
     /// [`StudyError::Field`] if a member of the address is missing, too long or not a line of text.
@@ -174,7 +174,7 @@ impl Study {
         }
     }
 
-    /// The stage at which a rater is, which is all that its page shows.
+    /// The stage at which a rater is, which is all that their page shows.
     ///
     /// # Errors
     /// [`StudyError::Token`], [`StudyError::Store`].
@@ -185,7 +185,7 @@ impl Study {
         self.step(token, "state", |_, _, _| Ok(()))
     }
 
-    /// Takes a rater's agreement, with which it gets its trials; or its refusal, of which only the fact is
+    /// Takes a rater's agreement, after which they get their trials; or their refusal, of which only the fact is
     /// kept.
     ///
     /// # Errors
@@ -235,11 +235,11 @@ impl Study {
         Ok(stage::of(Given { config: &self.config, forms, names }, &rater))
     }
 
-    /// Takes what a rater says of itself, an object with a member for each question.
+    /// Takes a rater's answers about themselves, an object with a member for each question.
     ///
     /// # Errors
-    /// [`StudyError::Field`], [`StudyError::NotNow`], [`StudyError::OtherAnswer`] if it has said something
-    /// else before; [`StudyError::Token`], [`StudyError::Store`].
+    /// [`StudyError::Field`], [`StudyError::NotNow`], [`StudyError::OtherAnswer`] if they have answered
+    /// otherwise before; [`StudyError::Token`], [`StudyError::Store`].
     pub fn demographics(&mut self, token: &Token, answer: &Value, now: Millis) -> Result<Stage, StudyError> {
         self.step(token, "demographics", |Given { config, .. }, store, rater| {
             if rater.consented.is_none() || config.demographics.is_empty() {
@@ -272,8 +272,8 @@ impl Study {
     }
 
     /// Takes the answer to a trial: an object with `trial` (its number, from 1), `answer` (a member for each
-    /// question), `response_time` (ms) and `plays` (of the video to its end, at least 1). Once this returns
-    /// it is on the disk. The same answer to the same trial may come again.
+    /// question), `response_time` (ms) and `plays` (of the video to its end, at least 1 unless
+    /// [`StudyConfig::answer_before_end`]). Once this returns it is on the disk. The same answer to the same trial may come again.
     ///
     /// # Errors
     /// [`StudyError::Field`], [`StudyError::NotNow`] for a trial that is not the next,
@@ -293,7 +293,7 @@ impl Study {
                 at: now,
                 answer: Responses::read(&root.required("answer")?, &questions)?,
                 response_time: root.required("response_time")?.whole(0, LONGEST_RESPONSE)?,
-                plays: root.required("plays")?.whole(1, MOST_PLAYS)?,
+                plays: root.required("plays")?.whole(i64::from(!config.answer_before_end), MOST_PLAYS)?,
             };
             match &trial.given {
                 Some(before) if before.answer == given.answer => Ok(()),
@@ -304,7 +304,8 @@ impl Study {
         })
     }
 
-    /// Lets a rater withdraw: its answers, what it said of itself and with what it came are deleted.
+    /// Lets a rater withdraw: their answers, also those about themselves, and the members of the address with which
+    /// they came are deleted.
     ///
     /// # Errors
     /// [`StudyError::Token`], [`StudyError::Store`].
@@ -315,7 +316,7 @@ impl Study {
         })
     }
 
-    /// Does something for a rater at a page, and returns what it sees then.
+    /// Does something for a rater at a page, and returns what they see then.
     fn step(
         &mut self,
         token: &Token,

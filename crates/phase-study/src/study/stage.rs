@@ -13,7 +13,7 @@ use serde::Serialize;
 #[derive(Clone, PartialEq, Debug, Serialize)]
 #[serde(tag = "page", rename_all = "lowercase")]
 pub enum Stage {
-    /// It is asked whether it agrees to take part.
+    /// The question whether they agree to take part.
     Consent {
         /// The title of the study.
         title: String,
@@ -22,19 +22,19 @@ pub enum Stage {
         /// The paragraphs that the rater agrees to.
         consent: Vec<String>,
     },
-    /// It is asked about itself.
+    /// Questions about the rater.
     Demographics {
         /// The questions about the rater.
         questions: Vec<Question>,
     },
-    /// It is told what to do.
+    /// What there is to do.
     Instructions {
         /// In paragraphs.
         instructions: Vec<String>,
     },
-    /// It watches a video and answers.
+    /// A video and the questions about it.
     Trial(TrialPage),
-    /// It has answered everything.
+    /// Everything is answered.
     Done {
         /// A code that shows it.
         #[serde(skip_serializing_if = "Option::is_none")]
@@ -43,9 +43,9 @@ pub enum Stage {
         #[serde(skip_serializing_if = "Option::is_none")]
         url: Option<String>,
     },
-    /// It did not agree.
+    /// The rater did not agree.
     Declined,
-    /// It withdrew.
+    /// The rater withdrew.
     Withdrawn,
     /// The study has all raters that it wants, at this time.
     Full,
@@ -62,6 +62,8 @@ pub struct TrialPage {
     pub video: String,
     /// The questions about the video.
     pub questions: Vec<Question>,
+    /// Whether it may be answered before the video has been played to its end.
+    pub answer_before_end: bool,
 }
 
 /// The first stage.
@@ -99,5 +101,6 @@ pub(super) fn of(given: Given<'_>, rater: &Rater) -> Stage {
         trials: rater.trials.len(),
         video: format!("videos/{}.mp4", names.of(&trial.shown)),
         questions: questions(config, forms, &trial.shown, trial.catch),
+        answer_before_end: config.answer_before_end,
     })
 }

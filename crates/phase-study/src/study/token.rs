@@ -6,7 +6,7 @@ use sha2::{Digest, Sha256};
 /// Bytes of a token.
 const BYTES: usize = 16;
 
-/// With this a rater shows who it is: 128 random bits, written as 32 hexadecimal digits. Only a digest of it
+/// Identifies a rater: 128 random bits, written as 32 hexadecimal digits. Only a digest of it
 /// is stored.
 #[derive(Clone, PartialEq, Eq)]
 pub struct Token([u8; BYTES]);

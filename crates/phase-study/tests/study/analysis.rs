@@ -15,7 +15,9 @@ fn study(folder: &Path, form: Form) -> Study {
     let stimuli = document["stimuli"].as_array_mut().expect("a list");
     for (k, stimulus) in stimuli.iter_mut().enumerate() {
         stimulus["source"] = json!(if k < 2 { "human" } else { "phase" });
-        stimulus["relation"] = json!("friendly");
+        stimulus["relation"] = json!(if k < 3 { "friendly" } else { "neutral" });
+        stimulus["condition"] = json!(if k % 2 == 0 { "help" } else { "indifferent" });
+        stimulus["set"] = json!(format!("pair-{}", k / 2));
         stimulus["goals"] = json!([["touch", "help"], "none"]);
     }
     open(folder, &document)
@@ -59,7 +61,7 @@ fn right_goals_right_relations_and_human_likeness_are_counted() {
         json!({
             "goal_0": if rater == 0 { "help" } else { "touch" },
             "goal_1": if wrong { "hinder" } else { "none" },
-            "relation": if wrong { "neutral" } else { "friendly" },
+            "relation": if wrong != (video == 3) { "neutral" } else { "friendly" },
             "human_likeness": if video < 2 { "5" } else if rater % 2 == 0 { "2" } else { "3" },
         })
     });
@@ -88,7 +90,35 @@ fn right_goals_right_relations_and_human_likeness_are_counted() {
     assert!(
         (difference.difference.low - 2.5).abs() < 1e-12 && (difference.difference.high - 2.5).abs() < 1e-12
     );
+    // Of the three friendly videos 4 + 2 + 1 judgements are right, of the neutral one all.
+    let confusion = analysis.confusion.as_ref().expect("labels");
+    assert_eq!(confusion.labels, ["friendly", "neutral"]);
+    assert_eq!(confusion.answers, ["friendly", "neutral", "adversarial"]);
+    assert_eq!(confusion.counts, [[7, 5, 0], [0, 4, 0]]);
+    assert_eq!(confusion.judgements, [12, 4]);
+    let right = |groups: &[phase_study::analysis::Answers], name: &str| {
+        let found = groups.iter().find(|it| it.name == name).expect(name);
+        (found.videos, found.judgements, found.relation_right.expect("labels").value)
+    };
+    assert_eq!(right(&analysis.conditions, "help"), (2, 8, (1.0 + 0.25) / 2.0));
+    assert_eq!(right(&analysis.conditions, "indifferent"), (2, 8, (0.5 + 1.0) / 2.0));
+    assert_eq!(right(&analysis.sets, "pair-0"), (2, 8, 6.0 / 8.0));
+    assert_eq!(right(&analysis.videos, "event-2"), (1, 4, 0.25));
+    let video = &analysis.videos[1];
+    assert_eq!(
+        (video.goals_right.expect("labels").value, video.human_likeness.expect("rated").value),
+        (0.75, 5.0)
+    );
+    assert_eq!(
+        video.given,
+        [("friendly", 2), ("neutral", 2), ("adversarial", 0)].map(|(it, n)| (it.into(), n))
+    );
     let text = report("A study", &analysis).to_markdown();
+    assert!(text.contains("| friendly | 7 | 5 | 0 | 12 |"), "{text}");
+    assert!(
+        text.contains("| event\\-2 | 1 | 4 | 0.250") || text.contains("| event-2 | 1 | 4 | 0.250"),
+        "{text}"
+    );
     assert!(text.contains("| human − phase | 2.50 [2.50, 2.50] |"), "{text}");
 }
 
@@ -120,7 +150,15 @@ fn interactions_given_by_anybody_and_by_half_of_the_raters_are_counted() {
     assert_eq!(alpha("meeting"), None, "nobody differs");
     assert!(alpha("chasing").expect("some differ").value < 0.5);
     let document = report("<b>A study</b>", &analysis);
-    assert_eq!(document.plots().map(|(file, _)| file).collect::<Vec<_>>(), ["interactions.svg"]);
+    assert_eq!(
+        document.plots().map(|(file, _)| file).collect::<Vec<_>>(),
+        ["confusion.svg", "interactions.svg"]
+    );
+    let confusion = analysis.confusion.as_ref().expect("conditions");
+    let chasing = confusion.answers.iter().position(|it| it == "chasing").expect("asked");
+    // Two of the eight judgements of each condition.
+    assert_eq!(confusion.labels, ["help", "indifferent"]);
+    assert_eq!(confusion.counts.iter().map(|row| row[chasing]).collect::<Vec<_>>(), [2, 2]);
     assert!(!document.to_html().contains("<b>"));
 }
 

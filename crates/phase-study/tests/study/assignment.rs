@@ -62,6 +62,41 @@ proptest! {
     }
 }
 
+proptest! {
+    #[test]
+    fn no_rater_sees_two_videos_of_a_set_and_all_videos_are_judged(
+        sets in 1_usize..12, size in 1_usize..4, alone in 0_usize..4, k in 1_u32..6, each in 1_usize..12,
+        seed in 0_i64..1000,
+    ) {
+        let each = each.min(sets + alone);
+        let mut document = document(Form::Relation, sets * size + alone, k, each);
+        document["seed"] = json!(seed);
+        document["one_of_each_set"] = json!(true);
+        // More raters than are needed may come.
+        document["raters_per_video_at_most"] = json!(10 * k);
+        for (n, stimulus) in document["stimuli"].as_array_mut().expect("a list").iter_mut().enumerate() {
+            if n < sets * size {
+                stimulus["set"] = json!(format!("set-{}", n / size));
+            }
+        }
+        let config = read(&document);
+        let mut load = vec![0_u32; config.stimuli.len()];
+        for rater in 1..=u64::from(config.raters) {
+            let trials = assign(&config, &load, rater).expect("room");
+            prop_assert_eq!(trials.len(), each);
+            let mut seen = BTreeSet::new();
+            for shown in trials {
+                let Shown::Stimulus(n) = shown else { continue };
+                load[n] += 1;
+                if let Some(set) = &config.stimuli[n].set {
+                    prop_assert!(seen.insert(set), "two of {}", set);
+                }
+            }
+        }
+        prop_assert!(load.iter().all(|&raters| raters >= k), "{:?}", load);
+    }
+}
+
 #[test]
 fn assignments_differ_between_seeds_and_between_raters() {
     let mut document = document(Form::Relation, 50, 10, 20);

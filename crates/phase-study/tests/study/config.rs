@@ -2,7 +2,7 @@
 
 use crate::support::{document, forms, read};
 use phase_study::{
-    config::{StudyConfig, raters_needed},
+    config::{GroupSize, StudyConfig, raters_needed},
     forms::{Form, GOALS, INTERACTIONS},
 };
 use proptest::prelude::*;
@@ -33,15 +33,19 @@ fn what_is_left_out_has_the_documented_value() {
     assert_eq!(config.parameters, ["PROLIFIC_PID", "STUDY_ID", "SESSION_ID"]);
     assert_eq!((config.raters_per_video_at_most, config.minutes, config.raters), (3, 60, 8));
     assert!(config.demographics.is_empty() && !config.between_sources && !config.identity_required);
+    assert!(!config.one_of_each_set && !config.answer_before_end);
     assert_eq!((config.stimuli[0].source.as_str(), config.stimuli[0].objects), ("phase", 2));
 }
 
 #[test]
 fn raters_needed_are_judgements_over_videos() {
-    assert_eq!(raters_needed(&[100], 10, 8), 125);
-    assert_eq!(raters_needed(&[100, 100], 18, 20), 180);
-    // Who is to see more videos than there are sees all of them.
-    assert_eq!(raters_needed(&[5], 3, 20), 3);
+    let all = |videos| GroupSize { videos, for_one: videos, fewest: 1 };
+    assert_eq!(raters_needed(&[all(100)], 10, 8), 125);
+    assert_eq!(raters_needed(&[all(100), all(100)], 18, 20), 180);
+    // A rater who is to see more videos than there are sees all of them.
+    assert_eq!(raters_needed(&[all(5)], 3, 20), 3);
+    // Six videos in a set of four and a set of two: it takes four raters to see each once.
+    assert_eq!(raters_needed(&[GroupSize { videos: 6, for_one: 2, fewest: 4 }], 5, 2), 20);
 }
 
 #[test]
@@ -71,6 +75,9 @@ fn mistakes_are_refused_with_field_and_rule() {
         ("/videos_per_rater", json!(11), &["`videos_per_rater`", "1 to 10"]),
         ("/between_sources", json!(true), &["`between_sources`", "two sources"]),
         ("/between_sources", json!(1), &["`between_sources`", "true or false"]),
+        ("/one_of_each_set", json!(true), &["`one_of_each_set`", "`set`"]),
+        ("/answer_before_end", json!("no"), &["`answer_before_end`", "true or false"]),
+        ("/stimuli/0/condition", json!("a b"), &["`stimuli[0].condition`"]),
         ("/completion", json!({"url": "http://x.org/"}), &["`completion.url`", "https://"]),
         ("/completion", json!({"url": "https://x.org/\"onload"}), &["`completion.url`"]),
         ("/completion", json!({"url": "https://me@x.org/"}), &["`completion.url`"]),

@@ -16,6 +16,8 @@ fn stimuli(source: &str, count: usize) -> Vec<Stimulus> {
         video: format!("{source}/{k}.mp4"),
         source: source.into(),
         objects: 2,
+        set: None,
+        condition: Some("helping".into()),
         labels: Labels {
             goals: Some([
                 BTreeSet::from(["help".into(), "light blue on green".into()]),
@@ -28,6 +30,18 @@ fn stimuli(source: &str, count: usize) -> Vec<Stimulus> {
     (0..count).map(of).collect()
 }
 
+fn design(experiment: Experiment, stimuli: Vec<Stimulus>) -> Design {
+    Design {
+        experiment,
+        stimuli,
+        catch_trials: Vec::new(),
+        name: None,
+        videos_per_rater: None,
+        one_of_each_set: false,
+        seed: 1,
+    }
+}
+
 fn read(design: &Design) -> StudyConfig {
     StudyConfig::read(design.to_text().as_bytes(), &forms()).expect("what is written can be read")
 }
@@ -35,7 +49,7 @@ fn read(design: &Design) -> StudyConfig {
 #[test]
 fn numbers_of_raters_and_videos_are_those_of_the_published_experiments() {
     let of = |experiment, stimuli| {
-        let config = read(&Design { experiment, stimuli, catch_trials: Vec::new(), seed: 1 });
+        let config = read(&design(experiment, stimuli));
         (config.raters, config.raters_per_video, config.raters_per_video_at_most, config.videos_per_rater)
     };
     // 20 % of 500 videos, 130 people, 10 for a video.
@@ -48,6 +62,7 @@ fn numbers_of_raters_and_videos_are_those_of_the_published_experiments() {
     for experiment in Experiment::ALL {
         for count in 1..12 {
             let (raters, wanted, most, each) = of(experiment, stimuli("phase", count));
+            assert_eq!(each as usize, count, "of few videos a rater sees all");
             assert!(raters as usize * each as usize >= count * wanted as usize && most >= wanted);
         }
     }
@@ -62,11 +77,32 @@ fn what_is_written_is_what_was_designed() {
         expected: BTreeMap::from([("relation".to_owned(), BTreeSet::from(["neutral".to_owned()]))]),
     };
     let stimuli = [stimuli("human", 3), stimuli("phase", 2)].concat();
-    let experiment = Experiment::HumanLikeness;
-    let config =
-        read(&Design { experiment, stimuli: stimuli.clone(), catch_trials: vec![catch.clone()], seed: 5 });
+    let design = design(Experiment::HumanLikeness, stimuli.clone());
+    let design = Design { catch_trials: vec![catch.clone()], name: Some("mine".into()), seed: 5, ..design };
+    let config = read(&design);
+    assert_eq!((config.name.as_str(), config.answer_before_end), ("mine", false));
     assert_eq!((config.stimuli, config.catch_trials, config.seed), (stimuli, vec![catch], 5));
     assert!(config.between_sources && config.form == Form::Goals && config.demographics.is_empty());
+}
+
+#[test]
+fn of_pairs_a_rater_sees_one_video_each() {
+    let mut pairs = stimuli("phase", 12);
+    for (k, stimulus) in pairs.iter_mut().enumerate() {
+        stimulus.set = Some(format!("pair-{}", k / 2));
+        stimulus.condition = Some(if k % 2 == 0 { "help" } else { "hinder" }.into());
+    }
+    let together = read(&design(Experiment::Relations, pairs.clone()));
+    assert_eq!((together.videos_per_rater, together.raters, together.stimuli), (12, 10, pairs.clone()));
+    let apart = Design { one_of_each_set: true, ..design(Experiment::Relations, pairs.clone()) };
+    let apart = read(&apart);
+    assert_eq!((apart.videos_per_rater, apart.raters, apart.one_of_each_set), (6, 20, true));
+    // Of a triple each rater sees a third.
+    pairs[2].set = Some("pair-0".into());
+    let uneven = read(&Design { one_of_each_set: true, ..design(Experiment::Relations, pairs) });
+    assert_eq!((uneven.videos_per_rater, uneven.raters), (6, 30));
+    let fewer = Design { videos_per_rater: Some(4), ..design(Experiment::Relations, stimuli("phase", 12)) };
+    assert_eq!(read(&fewer).raters, 30);
 }
 
 #[test]

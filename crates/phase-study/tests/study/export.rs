@@ -83,6 +83,10 @@ fn column(files: &[File], table: &str, name: &str) -> Vec<String> {
 fn study(folder: &Path, form: Form) -> phase_study::study::Study {
     let mut document = document(form, 4, 3, 4);
     document["name"] = json!("experiment-1");
+    document["stimuli"][2]["relation"] = json!("adversarial");
+    document["stimuli"][2]["set"] = json!("pair-1");
+    document["stimuli"][2]["condition"] = json!("hinder");
+    document["stimuli"][2]["goals"] = json!([["touch", "help"], "none"]);
     document["raters"] = json!(50);
     document["raters_per_video_at_most"] = json!(50);
     document["demographics"] = json!([
@@ -116,6 +120,18 @@ fn every_form_is_exported_by_the_rules() {
             assert_eq!(files.iter().any(|file| file.text.contains("PROLIFIC_PID")), external);
             assert_eq!(column(&files, "answers", "rater").len(), 25);
             assert_eq!(column(&files, "raters", "rater"), ["1", "2", "3", "4", "5"]);
+            let names = column(&files, "stimuli", "stimulus");
+            assert_eq!(names, ["event-0", "event-1", "event-2", "event-3", "catch-0"]);
+            assert_eq!(column(&files, "stimuli", "label_goal_0"), ["", "", "help; touch", "", ""]);
+            assert_eq!(column(&files, "stimuli", "catch"), ["false", "false", "false", "false", "true"]);
+            let shown = column(&files, "answers", "stimulus");
+            for (name, wanted) in
+                [("label_relation", "adversarial"), ("set", "pair-1"), ("condition", "hinder")]
+            {
+                for (shown, label) in shown.iter().zip(column(&files, "answers", name)) {
+                    assert_eq!(label, if shown == "event-2" { wanted } else { "" });
+                }
+            }
             assert!(column(&files, "answers", "catch").iter().filter(|it| *it == "true").count() == 5);
         }
     }

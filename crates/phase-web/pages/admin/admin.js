@@ -56,7 +56,8 @@ export async function save(path, name) {
 async function refresh() {
   const answer = await ask("api/status");
   if (!answer) return false;
-  const { agents, rooms, most_rooms, scenes, recordings } = await answer.json();
+  const { only_studies: onlyStudies, agents, rooms, most_rooms, scenes, recordings } = await answer.json();
+  for (const id of ["games", "given", "back"]) at(id).hidden = onlyStudies;
   colours = agents;
   at("count").textContent = `${rooms.length} of at most ${most_rooms} games, ${recordings} recordings.`;
   const trip = (ms) => (ms === null ? "–" : `${ms} ms`);

@@ -12,6 +12,8 @@ const ENDINGS = {
   failed: "The server could not go on with this game. What was finished is kept.",
 };
 
+// There is little room on a phone, which has no such keys either.
+at("keys").open = !matchMedia("(max-width: 760px)").matches;
 const arena = new Arena(at("arena"));
 let socket = null;
 let welcome = null;
@@ -164,6 +166,7 @@ function describe() {
   const me = welcome.agent;
   const { doing, ready, present } = state;
   at("game").hidden = doing === "gathering";
+  at("game").classList.toggle("playing", doing === "playing" || doing === "countdown");
   const guest = sessionStorage.getItem(`phase-guest-${token()}`);
   at("invitation").hidden = !(doing === "gathering" && guest);
   if (guest) at("link").value = new URL(`#${guest}`, location.href).href;
@@ -174,10 +177,11 @@ function describe() {
   at("ready").hidden = !asked;
   at("ready").textContent = doing === "playing" ? "I have practised enough" : practice ? "Begin the practice" : "I am ready";
   at("leave").hidden = doing === "over";
+  const outcome = outcomeOf(me);
   const waiting = welcome.mind ? "" : " Waiting for the other player …";
   const lines = {
     gathering: guest ? "Waiting for the other player …" : "Waiting for the other player …",
-    reading: ready[me] ? `You are ready.${waiting}` : practice ? "Read this, then begin the practice." : "Read your goal, then press the button when you are ready.",
+    reading: ready[me] ? `You are ready.${waiting}` : practice ? "Read this, then begin the practice." : `${outcome} Read your goal, then press the button when you are ready.`.trim(),
     countdown: "It begins.",
     playing: practice && ready[me] ? `You have practised enough.${waiting}` : practice ? "Practice: try all keys." : "Play!",
     paused: present[1 - me] ? "The game is paused." : "The other player is away. The game goes on when they are back.",
@@ -187,12 +191,17 @@ function describe() {
   if (doing === "countdown") countDown(state.countdown_ms);
   else overlay(doing === "paused" ? "Paused" : doing === "over" ? "The game is over" : "", true);
   if (doing === "countdown" || doing === "playing") at("arena").focus({ preventScroll: true });
-  if (doing === "over") at("told").replaceChildren(paragraph(lines.over));
+  if (doing === "over") at("told").replaceChildren(...[outcome, lines.over].filter(Boolean).map((text) => paragraph(text)));
+}
+
+/** How the last round ended for a player, in a sentence; empty before there was one. */
+function outcomeOf(me) {
+  if (result) return `The round is over: your goal was ${result[me] ? "reached" : "not reached"}.`;
+  return stage.round > 0 ? "The practice is over." : "";
 }
 
 function tell(practice) {
   const told = [];
-  if (result && !practice) told.push(paragraph(`Last round: your goal was ${result[welcome.agent] ? "reached" : "not reached"} at the end.`, "small"));
   if (practice) {
     told.push(paragraph(`You move the ${welcome.you}.`, "you"));
     if (welcome.view === "own") told.push(paragraph("You see only what your agent sees: what lies ahead of its eyes and is not hidden by walls or bodies, and what it touches. Everything else is covered in grey, and others are drawn only while they are seen."));

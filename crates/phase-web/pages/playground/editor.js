@@ -162,7 +162,7 @@ export class Editor {
       scene.agents[agent].goal = JSON.parse(value);
     });
     goal.disabled = spec.alpha !== 0;
-    goal.title = goal.disabled ? "Whoever helps has the other's goal, whoever hinders its opposite." : "";
+    goal.title = goal.disabled ? "A helper has the other agent's goal, a hinderer its opposite." : "";
     const attitude = this.#field(select(ATTITUDES, spec.alpha), `attitude-${agent}`, (scene, value) => {
       scene.agents[agent].alpha = Number(value);
     });
@@ -201,7 +201,7 @@ export class Editor {
   }
 }
 
-/** Whoever helps has the other's goal, whoever hinders its opposite. */
+/** A helper has the other agent's goal, a hinderer its opposite. */
 function settle(scene) {
   const [first, second] = scene.agents;
   for (const [own, other] of [[first, second], [second, first]]) {

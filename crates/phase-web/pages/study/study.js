@@ -102,21 +102,29 @@ function player(address, played) {
   return element("div", { class: "player" }, video, time, control, status);
 }
 
-function trial({ trial: number, trials, video, questions }) {
+function trial({ trial: number, trials, video, questions, answer_before_end: beforeEnd }) {
   let plays = 0;
   const begun = performance.now();
   const form = element("div");
-  put(`Animation ${number} of ${trials}`, player(video, () => { plays += 1; }), form);
+  const wait = element("p", { role: "status" }, beforeEnd ? "" : "You can answer when the animation has ended.");
+  const enable = (yes) => [...made.elements].forEach((control) => { control.disabled = !yes; });
+  const played = () => {
+    plays += 1;
+    if (plays > 1 || beforeEnd) return;
+    wait.textContent = "";
+    enable(true);
+  };
+  put(`Animation ${number} of ${trials}`, player(video, played), wait, form);
   const made = render(form, questions, {
     shuffle: order,
-    ready: () => (plays > 0 ? null : "Please watch the animation to its end first."),
+    ready: () => (beforeEnd || plays > 0 ? null : "Please watch the animation to its end first."),
     submitted: async (given) => {
-      const controls = [...made.elements];
-      controls.forEach((control) => { control.disabled = true; });
+      enable(false);
       await answer({ trial: number, answer: given, response_time: Math.round(performance.now() - begun), plays });
-      controls.forEach((control) => { control.disabled = false; });
+      enable(true);
     },
   });
+  enable(beforeEnd);
 }
 
 function done({ code, url }) {

@@ -31,7 +31,7 @@ async function study(form, more = {}) {
     ],
     completion: { code: `<i>${form}</i>`, url: "https://example.org/done?cc=1" }, ...more,
   };
-  const file = join(folder, `${name}.json`);
+  const file = join(folder, `${config.name}.json`);
   await writeFile(file, JSON.stringify(config));
   return file;
 }
@@ -122,14 +122,15 @@ for (const form of Object.keys(ANSWERS)) {
     for (const trial of [1, 2, 3]) {
       await title(page, `Animation ${trial} of 3`);
       assert.equal(await page.evaluate(() => document.activeElement.tagName), "H1");
+      await page.getByText("You can answer when the animation has ended.").waitFor();
+      assert.equal(await page.locator(".phase-form").locator("input:enabled, select:enabled, button:enabled").count(), 0, "nothing can be answered yet");
+      if (trial === 1) await nothingInTheWay(page);
+      await watch(page);
       await ANSWERS[form](page);
-      await press(page, "Continue");
-      await page.getByRole("alert").getByText("watch the animation to its end first").waitFor();
       if (trial === 1) {
         await nothingInTheWay(page);
         await screenshot(page, form);
       }
-      await watch(page);
       await press(page, "Continue");
     }
     await title(page, "Done");
@@ -149,8 +150,7 @@ test("a reload goes on in the middle, and so does another tab; another browser w
   await title(page, "Animation 2 of 3");
   await page.reload();
   await title(page, "Animation 2 of 3");
-  await press(page, "Continue");
-  await page.getByRole("alert").getByText("Please answer").waitFor();
+  assert.ok(await page.getByLabel("neutral").isDisabled());
   const stranger = await visit("relation", "reload");
   await title(stranger, "What");
   await stranger.context().close();
@@ -160,6 +160,8 @@ test("a reload goes on in the middle, and so does another tab; another browser w
   await title(other, "Animation 2 of 3");
   // The same trial answered otherwise in the other tab: the first answer stays, and both go on.
   await watch(page);
+  await press(page, "Continue");
+  await page.getByRole("alert").getByText("Please answer").waitFor();
   await watch(other);
   await ANSWERS.relation(page);
   await press(page, "Continue");
@@ -194,7 +196,34 @@ test("an answer waits for a server that is gone", async () => {
   await page.context().close();
 });
 
-test("who withdraws is gone", async () => {
+test("a study may let raters answer before the end, and its server offers nothing else", async () => {
+  const file = await study("relation", { name: "early", answer_before_end: true, demographics: [] });
+  const other = await start("--out", join(folder, "early"), "--study", file);
+  const page = await (await browser.newContext()).newPage();
+  listen(page, complaints);
+  await page.goto(`${other.address}study/early/`);
+  await press(page, "I agree to take part");
+  await press(page, "Begin");
+  await title(page, "Animation 1 of 3");
+  await ANSWERS.relation(page);
+  await press(page, "Continue");
+  await title(page, "Animation 2 of 3");
+  for (const path of ["", "play/", "playground/", "api/studies", "api/game", "home.js"]) {
+    assert.equal((await fetch(`${other.address}${path}`)).status, 404, path);
+  }
+  const links = await page.$$eval("a", (all) => all.map((link) => link.href));
+  assert.deepEqual(links, [], "a rater's page leads nowhere else");
+  await page.context().close();
+  const admin = await (await browser.newContext()).newPage();
+  listen(admin, complaints);
+  await admin.goto(`${other.address}admin/#${other.token}`);
+  await admin.getByRole("heading", { name: "Studies" }).waitFor();
+  assert.ok(await admin.getByRole("heading", { name: "Games" }).isHidden());
+  await admin.context().close();
+  await other.stop("SIGTERM");
+});
+
+test("a rater who withdraws is deleted", async () => {
   const page = await visit("goals", "withdraws");
   await begin(page, "goals");
   await press(page, "Withdraw from the study …");
@@ -209,7 +238,7 @@ test("who withdraws is gone", async () => {
   await page.context().close();
 });
 
-test("who does not agree takes no part", async () => {
+test("a visitor who does not agree takes no part", async () => {
   const page = await visit("goals", "declines");
   await title(page, "What");
   await press(page, "I do not agree");

@@ -12,7 +12,7 @@ use phase_dataset::{
 };
 use phase_event::{Recording, SimulationRecord, Step, to_json};
 use phase_model::random::Pcg64Mcg;
-use phase_runs::{error::RunError, event_writer::video};
+use phase_runs::{error::RunError, event_writer::video, picture::Look};
 use phase_sampler::Variant;
 use rand::{
     RngExt,
@@ -148,7 +148,7 @@ fn steps_with_video(
     if change(&mut simulation.event.steps, random).is_none() {
         return Ok(false);
     }
-    copy.write(&video_path(&entry.id), &video(&entry.id, &simulation.event)?)?;
+    copy.write(&video_path(&entry.id), &video(&entry.id, &simulation.event, &Look::default())?)?;
     write_event(copy, &entry.id, simulation).map(|()| true)
 }
 

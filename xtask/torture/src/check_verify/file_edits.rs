@@ -13,7 +13,7 @@ use phase_dataset::{
     parquet::{FOLDER, ParquetWriter},
 };
 use phase_model::random::Pcg64Mcg;
-use phase_runs::{error::RunError, event_writer::video};
+use phase_runs::{error::RunError, event_writer::video, picture::Look};
 use rand::{RngExt, seq::IndexedRandom};
 use std::{fs, process::Command};
 
@@ -158,7 +158,7 @@ pub(super) fn frames_exchanged(copy: &mut EditedCopy, random: &mut Pcg64Mcg, _: 
         return Ok(false);
     }
     simulation.event.steps.swap(random.random_range(0..steps - 1), steps - 1);
-    copy.write(&video_path(&entry.id), &video(&entry.id, &simulation.event)?).map(|()| true)
+    copy.write(&video_path(&entry.id), &video(&entry.id, &simulation.event, &Look::default())?).map(|()| true)
 }
 
 pub(super) fn in_manifest(copy: &mut EditedCopy, random: &mut Pcg64Mcg, _: &Original) -> Made {

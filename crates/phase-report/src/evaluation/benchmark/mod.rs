@@ -19,7 +19,10 @@ use phase_document::{
     document::{Block, Document},
     plot::bars,
 };
-use phase_eval::benchmark::{Benchmark, Familiarity, Origin, Row};
+use phase_eval::{
+    benchmark::{Benchmark, Familiarity, Origin, Row},
+    goals::RecognitionSummary,
+};
 
 /// The benchmark's whole report.
 #[must_use]
@@ -86,6 +89,22 @@ fn introduction(benchmark: &Benchmark) -> String {
         benchmark.seed,
         sets.collect::<Vec<_>>().join(" and ")
     )
+}
+
+/// Bars of this project's methods on the first set, for goals and relations.
+fn charts(benchmark: &Benchmark) -> Vec<Block> {
+    let Some(set) = benchmark.sets.first() else { return Vec::new() };
+    let ours = benchmark.goals.iter().filter(|row| row.set == 0 && row.origin == Origin::Ours);
+    let chart = |file, what: &str, of: fn(&RecognitionSummary) -> f64| {
+        let bars_of = |row: &Row<RecognitionSummary>| (row.method.clone(), 100.0 * of(&row.summary));
+        let mut rows: Vec<(String, f64)> = ours.clone().map(bars_of).collect();
+        rows.sort_by(|one, other| other.1.total_cmp(&one.1));
+        let title = format!("{what} of {} events, %", set.label);
+        (!rows.is_empty()).then(|| Block::Plot { file, svg: bars(&title, " %", &rows), title })
+    };
+    let goals = chart("results-goals.svg", "Right goals", |summary| summary.all.top1.value);
+    let relations = chart("results-relations.svg", "Right relations", |summary| summary.all.relation.value);
+    goals.into_iter().chain(relations).collect()
 }
 
 /// Bars of the methods in the tables, on all sets; none without methods.

@@ -1,6 +1,6 @@
 //! The results page of the documents: prose from a template, every figure from the benchmark.
 
-use super::{growth, mistakes, people, tables, training};
+use super::{charts, growth, mistakes, people, tables, training};
 use minijinja::{Environment, Error, UndefinedBehavior, syntax::SyntaxConfig};
 use phase_document::document::Block;
 use phase_eval::{
@@ -12,7 +12,7 @@ use serde_json::{Map, Value, json};
 
 /// The page's prose, and the places of its figures. Links in it are relative to the folder `docs`.
 const TEMPLATE: &str = include_str!("results.md.jinja");
-/// The page's pictures, in this folder beside it.
+/// The page's pictures, in this folder of the documents.
 const IMAGES: &str = "images";
 
 /// A page and its pictures.
@@ -20,7 +20,7 @@ const IMAGES: &str = "images";
 pub struct Page {
     /// The page as Markdown.
     pub text: String,
-    /// The pictures: paths relative to the page's folder, and contents.
+    /// The pictures: paths relative to the folder of the documents, and contents.
     pub pictures: Vec<(String, String)>,
 }
 
@@ -30,7 +30,8 @@ pub struct Page {
 /// If the benchmark lacks a figure that the prose takes for granted.
 pub fn page(benchmark: &Benchmark) -> Result<Page, Error> {
     let growth = growth::blocks(benchmark);
-    let pictures = growth.iter().filter_map(|block| match block {
+    let charts = charts(benchmark);
+    let pictures = charts.iter().chain(&growth).filter_map(|block| match block {
         Block::Plot { file, svg, .. } => Some((format!("{IMAGES}/{file}"), svg.clone())),
         _ => None,
     });
@@ -47,6 +48,7 @@ pub fn page(benchmark: &Benchmark) -> Result<Page, Error> {
         "trajectories": figures(benchmark, &benchmark.trajectories, trajectory_figures),
         "unseen_layouts": count(benchmark, Familiarity::UnseenLayout),
         "unseen_interactions": count(benchmark, Familiarity::UnseenInteraction),
+        "goal_charts": charts.iter().map(in_page).collect::<Vec<_>>(),
         "goal_table": table(Some(tables::goals(benchmark))),
         "role_table": table(people::roles(benchmark)),
         "trajectory_table": table(Some(tables::trajectories(benchmark))),
@@ -73,7 +75,7 @@ pub fn page(benchmark: &Benchmark) -> Result<Page, Error> {
 /// A block of a section; pictures are in their own folder.
 fn in_page(block: &Block) -> String {
     match block {
-        Block::Plot { file, title, .. } => format!("![{title}]({IMAGES}/{file})"),
+        Block::Plot { file, title, .. } => format!("![{title}](../{IMAGES}/{file})"),
         block => block.to_markdown().trim_end().to_owned(),
     }
 }
