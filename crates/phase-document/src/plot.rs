@@ -40,8 +40,9 @@ pub fn bars(title: &str, unit: &str, rows: &[(String, f64)]) -> String {
     svg + "</svg>\n"
 }
 
-/// A table of shares (0 to 1) as a picture: a row for each label, a column for each answer, and in each cell the
-/// share in per cent on a ground that is darker the greater it is. Shares that are not finite are blank.
+/// A table of shares (0 to 1) as a picture: a row for each label, a column for each answer, and in each
+/// cell the share in per cent on a ground that is darker the greater it is. Shares that are not finite are
+/// blank.
 #[must_use]
 pub fn matrix(title: &str, rows: &[String], columns: &[String], shares: &[Vec<f64>]) -> String {
     const CELL: usize = 44;

@@ -54,7 +54,8 @@ pub fn common_steps(a: &Track, b: &Track) -> usize {
     a.steps().min(b.steps())
 }
 
-/// What viewers of a video see move, for matching videos of different conditions. Seconds are those of the video.
+/// Motion that viewers of a video see, for matching videos of different conditions. Seconds are those of the
+/// video.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct VideoMotion {
     /// Duration (s).
@@ -108,8 +109,8 @@ impl VideoMotion {
     }
 }
 
-/// The mean magnitude of an entity's acceleration between steps (u/s² of video); 0 in tracks of less than three
-/// steps.
+/// The mean magnitude of an entity's acceleration between steps (u/s² of video); 0 in tracks of less than
+/// three steps.
 fn acceleration(track: &Track, entity: Entity) -> f64 {
     let places: Vec<Vec2> = track.states.iter().skip(1).map(|state| state.position(entity)).collect();
     let changes: Vec<f64> = places

@@ -33,8 +33,8 @@ pub(crate) fn draw(pixmap: &mut Pixmap, style: &Style, font: &SizedFont, caption
     let width = style.text_width();
     let mut top = style.caption_top();
     for caption in captions.iter().take(style.caption_lines as usize) {
-        // The cast turns NaN into 0. Text stands on its bar, whose end would otherwise run through it; the two rows
-        // below are free.
+        // The cast turns NaN into 0. Text stands on its bar, whose end would otherwise run through it; the
+        // two rows below are free.
         let bar = (caption.bar.clamp(0.0, 1.0) * width as f32).round() as u32;
         let thickness = (height / 5).max(2);
         let bar_top = top + height - 2 - thickness;

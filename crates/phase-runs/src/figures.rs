@@ -92,7 +92,8 @@ impl EventFigures {
         text
     }
 
-    /// Writes the figures for people, plots of them and the table of motion (`motion.csv`) into a folder, which is created if it is not there.
+    /// Writes the figures for people, plots of them and the table of motion (`motion.csv`) into a folder,
+    /// which is created if it is not there.
     ///
     /// # Errors
     /// If a file or the folder cannot be written.

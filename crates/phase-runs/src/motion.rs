@@ -113,7 +113,7 @@ impl Motions {
         text
     }
 
-    /// The same for programs: by condition and measure `mean` and `sd`.
+    /// Mean and standard deviation of each measure by condition, for programs.
     pub(crate) fn value(&self) -> Value {
         let group = |motions: &Vec<&VideoMotion>| -> Value {
             let measure = |(name, of): Measure| {

@@ -101,8 +101,8 @@ pub struct RenderedState<'a> {
     pub observer: Option<&'a ObserverFrame<'a>>,
 }
 
-/// Items at a frame rate: where that is not the substeps', bodies are moved in straight lines from one substep to
-/// the next, and everything else is that of the earlier one.
+/// Items at a frame rate: where that is not the substeps', bodies are moved in straight lines from one
+/// substep to the next, and everything else is that of the earlier one.
 fn at_rate<'a>(
     items: impl Iterator<Item = RenderedState<'a>>,
     frame_rate: u32,

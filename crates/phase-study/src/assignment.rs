@@ -51,8 +51,8 @@ pub fn assign(config: &StudyConfig, load: &[u32], rater: u64) -> Option<Vec<Show
     Some(trials)
 }
 
-/// Of videos in the order of their load the first of each set, and those of no set; first those whose set lacks
-/// most judgements, for a set of several videos takes as many raters more.
+/// Of videos in the order of their load the first of each set, and those of no set; first those whose set
+/// lacks most judgements, for a set of several videos takes as many raters more.
 fn one_of_each_set(config: &StudyConfig, load: &[u32], open: &[usize]) -> Vec<usize> {
     let mut lacking = BTreeMap::<&str, u32>::new();
     let lacks = |k: usize| config.raters_per_video.saturating_sub(load[k]);

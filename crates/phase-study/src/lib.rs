@@ -10,9 +10,9 @@
 //!
 //! Key design decision: what a rater sees next follows from what is stored of it, and every step is one
 //! transaction in one SQLite file that is only added to. So a server has no state of its own: it can be
-//! killed at any moment, and a returning rater continues where they left off. Clock and randomness are arguments,
-//! HTTP is elsewhere. The trade-off is that every answer waits for the disk, and that where videos are
-//! assigned all raters are read.
+//! killed at any moment, and a returning rater continues where they left off. Clock and randomness are
+//! arguments, HTTP is elsewhere. The trade-off is that every answer waits for the disk, and that where
+//! videos are assigned all raters are read.
 //!
 //! Feature `store` (on by default) has [`store`] and [`study`], and builds SQLite from its source.
 //!

@@ -170,7 +170,8 @@ fn objects(count: usize) -> u8 {
 }
 
 impl Base {
-    /// The path of a video relative to the configuration, with `/`; of one that lies elsewhere that of its copy.
+    /// The path of a video relative to the configuration, with `/`; of one that lies elsewhere that of its
+    /// copy.
     fn place(&mut self, file: &Path, source: &str) -> Result<String, CliError> {
         let file = fs::canonicalize(file).map_err(|error| {
             let problem = phase_files::Problem::Unreadable(error);

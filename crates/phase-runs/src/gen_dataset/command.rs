@@ -78,8 +78,8 @@ impl Generation {
     }
 }
 
-/// The number of steps in a time of video, given in seconds; `None` unless that is 1 to 2500, and a whole number of
-/// steps.
+/// The number of steps in a time of video, given in seconds; `None` unless that is 1 to 2500, and a whole
+/// number of steps.
 #[must_use]
 pub fn steps_of(seconds: &str) -> Option<u32> {
     let steps = seconds.parse::<f64>().ok().filter(|seconds| *seconds >= 1.0)? / STEP_VIDEO_SECONDS;

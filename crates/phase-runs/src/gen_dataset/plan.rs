@@ -89,7 +89,8 @@ impl DatasetPlan {
         }
         let settings_value = settings_value(&settings)?;
         let fingerprint = run::digest(&json!({
-            "program": hexadecimal(&program()), "settings": settings_value, "seed": seed, "preset": text, "form": form,
+            "program": hexadecimal(&program()), "settings": settings_value, "seed": seed, "preset": text,
+            "form": form,
         }));
         let composition = Composition::of(&preset);
         let shard = generation.shard;

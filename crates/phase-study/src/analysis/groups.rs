@@ -14,7 +14,7 @@ use phase_eval::Estimate;
 use phase_statistics::mean;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// What an interval is over.
+/// Things that an interval is over.
 #[derive(Clone, Copy)]
 pub(super) enum Over {
     Videos,
@@ -98,7 +98,8 @@ fn answers(name: &str, videos: &[&Judged<'_>], over: Over, form: Form, forms: &F
     }
 }
 
-/// Which answers the videos of each relation get; of the form of interactions those of each condition.
+/// Counts of the answers that videos of each relation get; of the form of interactions those of each
+/// condition.
 pub(super) fn confusion(judgements: &Judgements<'_>, form: Form, forms: &Forms) -> Option<Confusion> {
     let (question, label): (_, fn(&Stimulus) -> Option<&str>) = match form {
         Form::Interactions => (INTERACTIONS, condition),

@@ -168,7 +168,7 @@ pub struct Answers {
     pub human_likeness: Option<Estimate>,
 }
 
-/// Which answers videos of each label get.
+/// Counts of the answers that videos of each label get.
 #[derive(Clone, PartialEq, Debug, Serialize)]
 pub struct Confusion {
     /// The question: `relation`, or `interactions`, whose labels are the conditions.
@@ -200,7 +200,7 @@ pub struct Analysis {
     pub agreement: Vec<Agreement>,
     /// Whether they are right, where labels are known.
     pub accuracy: Vec<Accuracy>,
-    /// Which answers videos of each label get; `None` without labels.
+    /// Counts of the answers that videos of each label get; `None` without labels.
     pub confusion: Option<Confusion>,
     /// The answers by condition; where a video has none, its kind of event stands for it.
     pub conditions: Vec<Answers>,

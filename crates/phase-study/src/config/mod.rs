@@ -40,7 +40,7 @@ pub struct Stimulus {
     pub objects: u8,
     /// The set that it belongs to, such as a minimal pair; a name of its own, as of ids.
     pub set: Option<String>,
-    /// What was varied and has this value in the video, such as `helping` or `hinder`; a word, as of ids.
+    /// The value in this video of whatever was varied, such as `helping` or `hinder`; a word, as of ids.
     pub condition: Option<String>,
     /// Labels of the video, for accuracies.
     pub labels: Labels,

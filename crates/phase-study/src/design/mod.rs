@@ -74,8 +74,8 @@ pub struct Design {
     pub catch_trials: Vec<CatchTrial>,
     /// Name of the study, part of its address; that of the experiment if `None`.
     pub name: Option<String>,
-    /// Videos for each rater; if `None` the experiment's number of as many videos as the experiment had, and all
-    /// of fewer.
+    /// Videos for each rater; if `None` the experiment's number of as many videos as the experiment had,
+    /// and all of fewer.
     pub videos_per_rater: Option<u32>,
     /// Whether a rater sees no two videos of a set.
     pub one_of_each_set: bool,

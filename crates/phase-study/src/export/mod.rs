@@ -1,8 +1,8 @@
 //! Answers for others: a Psych-DS dataset, and `phase-ratings/1`.
 //!
 //! Raters who withdrew or did not agree are in neither. Those who failed catch trials or have not finished
-//! are marked in the tables of the dataset and left out of the ratings. Raters are numbers; the members of the
-//! address with which they came are only exported on demand.
+//! are marked in the tables of the dataset and left out of the ratings. Raters are numbers; the members of
+//! the address with which they came are only exported on demand.
 
 mod csv;
 mod tables;
@@ -28,7 +28,8 @@ pub struct File {
 
 /// The Psych-DS dataset of a study (<https://psych-ds.github.io/>): `dataset_description.json`, `README.md`
 /// and three tables in `data`, of answers, of raters and of videos; `docs/reference/formats/studies.md` has
-/// their columns. With `external_ids` the table of raters has the members of the address with which they came.
+/// their columns. With `external_ids` the table of raters has the members of the address with which they
+/// came.
 #[must_use]
 pub fn psych_ds(config: &StudyConfig, forms: &Forms, raters: &[Rater], external_ids: bool) -> Vec<File> {
     let present: Vec<&Rater> = raters.iter().filter(|rater| rater.departure.is_none()).collect();

@@ -52,13 +52,13 @@ struct Given<'a> {
 
 /// A study with its answers: the state machine that raters go through.
 ///
-/// A visitor is known by a random token, and nothing else: the id of a panel in the address is data. They are a
-/// rater once they have agreed or refused; before that nothing is stored.
+/// A visitor is known by a random token, and nothing else: the id of a panel in the address is data. They
+/// are a rater once they have agreed or refused; before that nothing is stored.
 ///
-/// A rater comes ([`Study::join`]), agrees, answers questions about themselves, reads the instructions and answers
-/// their trials, in this order. Each method takes one of these steps for the rater with a token and returns the
-/// [`Stage`] that follows; a step out of order is refused and changes nothing. Once a method returns, what it
-/// took is on the disk. Times are [`Millis`], given by the caller.
+/// A rater comes ([`Study::join`]), agrees, answers questions about themselves, reads the instructions and
+/// answers their trials, in this order. Each method takes one of these steps for the rater with a token and
+/// returns the [`Stage`] that follows; a step out of order is refused and changes nothing. Once a method
+/// returns, what it took is on the disk. Times are [`Millis`], given by the caller.
 #[derive(Debug)]
 pub struct Study {
     config: StudyConfig,
@@ -130,8 +130,9 @@ impl Study {
         self.videos.iter().map(|(name, (_, file))| (name.as_str(), file.as_str()))
     }
 
-    /// Lets somebody in. `parameters` are the members of the address with which they came; those that the study
-    /// does not keep are ignored. They are known by `token` from then on; nothing is stored before they agree.
+    /// Lets somebody in. `parameters` are the members of the address with which they came; those that the
+    /// study does not keep are ignored. They are known by `token` from then on; nothing is stored before
+    /// they agree.
     ///
     /// # Errors
     /// [`StudyError::Field`] if a member of the address is missing, too long or not a line of text.
@@ -185,8 +186,8 @@ impl Study {
         self.step(token, "state", |_, _, _| Ok(()))
     }
 
-    /// Takes a rater's agreement, after which they get their trials; or their refusal, of which only the fact is
-    /// kept.
+    /// Takes a rater's agreement, after which they get their trials; or their refusal, of which only the
+    /// fact is kept.
     ///
     /// # Errors
     /// [`StudyError::NotNow`] if the rater is past that; [`StudyError::Token`], [`StudyError::Store`].
@@ -273,7 +274,8 @@ impl Study {
 
     /// Takes the answer to a trial: an object with `trial` (its number, from 1), `answer` (a member for each
     /// question), `response_time` (ms) and `plays` (of the video to its end, at least 1 unless
-    /// [`StudyConfig::answer_before_end`]). Once this returns it is on the disk. The same answer to the same trial may come again.
+    /// [`StudyConfig::answer_before_end`]). Once this returns it is on the disk. The same answer to the
+    /// same trial may come again.
     ///
     /// # Errors
     /// [`StudyError::Field`], [`StudyError::NotNow`] for a trial that is not the next,
@@ -304,8 +306,8 @@ impl Study {
         })
     }
 
-    /// Lets a rater withdraw: their answers, also those about themselves, and the members of the address with which
-    /// they came are deleted.
+    /// Lets a rater withdraw: their answers, also those about themselves, and the members of the address
+    /// with which they came are deleted.
     ///
     /// # Errors
     /// [`StudyError::Token`], [`StudyError::Store`].

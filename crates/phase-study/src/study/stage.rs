@@ -27,7 +27,7 @@ pub enum Stage {
         /// The questions about the rater.
         questions: Vec<Question>,
     },
-    /// What there is to do.
+    /// Instructions before the first video.
     Instructions {
         /// In paragraphs.
         instructions: Vec<String>,
