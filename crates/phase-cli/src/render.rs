@@ -1,6 +1,8 @@
 //! `render`: events as videos, or as pictures of their key frames.
 
-use crate::{context::Context, error::CliError, interrupt, look::LookOptions, output::Output, parallel::Jobs};
+use crate::{
+    context::Context, error::CliError, interrupt, look::LookOptions, output::Output, parallel::Jobs,
+};
 use clap::{Args, ValueEnum, value_parser};
 use phase_model::AgentId;
 use phase_runs::render::{Rendered, Rendering, View};

@@ -3,13 +3,13 @@
 use core::ops::ControlFlow;
 use phase_event::{Recording, to_json};
 use phase_model::AgentId;
-use phase_render::PaletteName;
 use phase_runs::{
     effort::Effort,
     engine,
     event_writer::settings_value,
     gen_dataset::{any_scene, plan},
     listener::Silent,
+    picture::Look,
     render::{Rendering, View},
 };
 use std::{fs, path::Path};
@@ -31,7 +31,7 @@ fn events(folder: &Path) -> Rendering {
         ids: vec!["simulated".into()],
         out: folder.join("out"),
         view: View::World,
-        palette: PaletteName::Paper,
+        look: Look::default(),
         contact_sheet: None,
         threads: Some(1),
     }
