@@ -1,6 +1,7 @@
 """The examples run."""
 
 import json
+import re
 import shutil
 import subprocess
 import sys
@@ -9,6 +10,7 @@ from pathlib import Path
 import pytest
 
 EXAMPLES = Path(__file__).parent.parent / "examples"
+ROOT = EXAMPLES.parent.parent.parent
 
 
 def test_two_minds(tmp_path):
@@ -18,6 +20,17 @@ def test_two_minds(tmp_path):
     assert done.returncode == 0, done.stderr
     assert "goals recognised" in done.stdout
     assert (tmp_path / "event.mp4").stat().st_size > 1000
+
+
+@pytest.mark.parametrize("document", ["crates/phase-python/README.md", "docs/how-to/method.md"])
+def test_the_code_of_documents(document, tmp_path):
+    """Every Python block runs, one after the other, in an empty folder."""
+    blocks = re.findall(r"```python\n(.*?)```", (ROOT / document).read_text(), flags=re.DOTALL)
+    assert blocks
+    command = [sys.executable, "-c", "\n".join(blocks)]
+    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False, timeout=600)
+    assert done.returncode == 0, done.stderr
+    assert "'value': " in done.stdout
 
 
 def test_learning_to_help(tmp_path):

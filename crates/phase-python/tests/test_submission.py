@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 import phase_events as phase
+from phase_events.events import save_events
 
 ROOT = Path(__file__).parent.parent.parent.parent
 WHO = {"by": "N. N.", "source": "https://example.org/mine"}
@@ -92,12 +93,15 @@ def test_submissions_that_are_refused(dataset, event, tmp_path):
     second = tmp_path / "second"
     second.mkdir()
     (second / "manifest.json").write_text(json.dumps(manifest | {"seed": 2}))
+    half = tmp_path / "half.json"
+    save_events(events[:50], half)
     which = r"the events of the leaderboard are 100 of phase-500-seed1, test events \(made by .*phase-500.*; 280 of phase-pairs-seed1"
     for given, where, change, rule in (
         (few, dataset, {}, "no answer to 3 of the 100 events of d, test events: phase-500-0097, phase-500-0098, phase-500-0099; "),
         (answers, other, {}, "has events of the preset demo; " + which),
         (answers, second, {}, "was made with the seed 2; " + which),
         (answers, tmp_path / "event.json", {}, "has 1 of them; " + which),
+        (answers, half, {}, "its events are not the 50 recordings of the leaderboard"),
         (answers, tmp_path / "nowhere", {}, "nowhere"),
         ({id: {} for id in answers}, dataset, {}, "neither `goals` nor `forecast`"),
         ({id: {"goals": [[], []]} for id in answers}, dataset, {}, "predictions: event phase-500-0000: field `relation`"),

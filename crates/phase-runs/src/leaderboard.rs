@@ -210,7 +210,7 @@ impl Submission {
     /// invalid one; if a name is invalid; and if a file cannot be read or written.
     pub fn submit(&self, listener: &dyn Listener) -> Result<Submitted, RunError> {
         let benchmark: Benchmark = bundled("data/results.json", phase_data::RESULTS)?;
-        let (Set { label, .. }, set) = set_of(&self.events, &benchmark)?;
+        let (Set { label, preset, .. }, set) = set_of(&self.events, &benchmark)?;
         for (name, text) in [("by", &self.by), ("source", &self.source)] {
             let plain = !text.trim().is_empty() && !text.chars().any(char::is_control);
             if !plain {
@@ -236,6 +236,14 @@ impl Submission {
             scores.push(predictions.score(&self.events, listener)?);
         }
         let same_events = scores.iter().all(|score| score.events == set.sha256);
+        // Another version may make other events of a preset; recordings are what they are.
+        if preset.is_none() && !same_events {
+            let events = self.events.display();
+            let count = set.events;
+            return Err(RunError::Usage(format!(
+                "{events}: its events are not the {count} recordings of the leaderboard, as `data/import_socialgnn.py` writes them"
+            )));
+        }
         let files = self.write(&benchmark, &method, &bytes, &scores)?;
         Ok(Submitted { scores, files, same_events })
     }
