@@ -100,7 +100,8 @@ impl Progress {
         });
         let lines = (!quiet && !terminal && events == 0).then(|| Lines::new(activity, steps));
         let activity = activity.to_owned();
-        let (finished, tried) = (AtomicUsize::new(0), AtomicUsize::new(0));
+        let finished = AtomicUsize::new(0);
+        let tried = AtomicUsize::new(0);
         let told = Mutex::new(Instant::now());
         Self { bar, lines, quiet, events, steps_each, finished, activity, tried, told }
     }
@@ -147,7 +148,8 @@ impl Progress {
             && told.elapsed() >= BETWEEN_LINES
         {
             *told = Instant::now();
-            let (finished, events) = (self.finished.load(Ordering::Relaxed), self.events);
+            let finished = self.finished.load(Ordering::Relaxed);
+            let events = self.events;
             print_message(format!(
                 "{}: {finished} of {events} done; scenes tried that do not show their label: {tried}",
                 self.activity

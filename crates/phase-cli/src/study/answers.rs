@@ -45,7 +45,8 @@ fn file_of(config: &StudyConfig, answers: &Path) -> Result<PathBuf, CliError> {
         .collect();
     others.sort();
     let there = if others.is_empty() { "of no study".into() } else { format!("of {}", others.join(", ")) };
-    let (folder, name) = (folder.display(), &config.name);
+    let folder = folder.display();
+    let name = &config.name;
     Err(CliError::Usage(format!(
         "--answers: {folder} has no answers of the study {name}; it has those {there}"
     )))

@@ -43,7 +43,8 @@ impl Copy {
             if regular::bytes(&self.to)? == bytes {
                 return Ok(());
             }
-            let (to, from) = (self.to.display(), self.from.display());
+            let to = self.to.display();
+            let from = self.from.display();
             return Err(CliError::Usage(format!(
                 "{to}: is there, and is not {from}, which would be copied there"
             )));
