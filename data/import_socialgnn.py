@@ -4,12 +4,15 @@
     python3 data/import_socialgnn.py Videos_Test_humanratings recordings.json
     python3 data/import_socialgnn.py Videos_Test_humanratings recordings.json \\
         --raters responses_genset --ratings ratings.json
+    python3 data/import_socialgnn.py Videos_humanratings recordings.json --set main
 
 Both inputs are in the repository Isik-lab/SocialGNN (MIT licence): the file PHASE/Videos_Test_humanratings and the
 folder PHASE/Human_Experiment_Files/responses_genset. docs/reference/formats/overview.md describes both results. Python 3.9 or later and
 numpy are needed.
 
-What is read. The file is a pickle: a list whose entry k becomes the event `phase-test-k`; empty entries are skipped.
+What is read. The file is a pickle: a list whose entry k becomes the event `phase-test-k`, or with `--set main`, for the
+400 other recordings (PHASE/Videos_humanratings), `phase-main-k`; empty entries and catch trials (names that end in `_mm`)
+are skipped.
 An entry is a record with its `name`; recordings.py beside this file says what names and records mean, and what is mended.
 The pickle has no actions.
 
@@ -48,21 +51,29 @@ def entries_of(path):
     return content
 
 
-def converted_entries(path, angles):
-    """What the reading process has to tell: events, their ids by the names of videos, and the number of entries."""
+def converted_entries(path, angles, which):
+    """What the reading process has to tell: events, their ids by the names of videos, and the numbers of entries and of
+    catch trials among them."""
     content = entries_of(path)
-    events, names = [], {}
+    events, names, catch = [], {}, 0
     for k, entry in enumerate(content):
         if entry is None:
             continue
-        event_id = f"phase-test-{k:03d}"
+        event_id = f"phase-{which}-{k:03d}"
         if type(entry) is not dict:
             raise Unusable(f"entry {k}: is no dictionary")
         name = text(entry.get("name"), f"entry {k}: `name`")
+        if is_catch(name):
+            catch += 1
+            continue
         event = converted(entry, name, event_id, angles, f"entry {k}", published=True)
         names.setdefault(name, []).append(event_id)
         events.append(event)
-    return {"events": events, "names": names, "entries": len(content)}
+    return {"events": events, "names": names, "entries": len(content), "catch": catch}
+
+
+def is_catch(name):
+    return re.sub(r"\.\w{1,5}$", "", name).endswith(CATCH_ENDING)
 
 
 # Raters.
@@ -98,9 +109,10 @@ def read_sheet(path):
     return [(answer.get("video_name"), answer.get("likert_response")) if answer else None for answer in answers]
 
 
-def is_complete(answers):
-    """Whether a sheet has all answers, each to a video and one of the three."""
-    if len(answers) != ANSWERS_PER_SHEET:
+def is_complete(answers, which):
+    """Whether a sheet has all answers, each to a video and one of the three. Sheets about the test set have a known
+    number; `[]` stands there for a recording that is not in the file. Other sheets must have an answer in every line."""
+    if len(answers) != ANSWERS_PER_SHEET if which == "test" else not all(answers):
         return False
     given = [answer for answer in answers if answer]
     return all(type(video) is str and said in RELATIONS for video, said in given) \
@@ -112,12 +124,12 @@ def catch_answers(given):
     result = {}
     for video, said in given:
         layout = re.search(r"_E(\d{1,2})_", video, re.ASCII)
-        if layout and re.sub(r"\.\w{1,5}$", "", video).endswith(CATCH_ENDING):
+        if layout and is_catch(video):
             result[int(layout[1])] = said
     return result
 
 
-def count_ratings(folder, names):
+def count_ratings(folder, names, which):
     """A phase-ratings/1 file's content, and what became of the sheets."""
     try:
         sheets = sorted(entry for entry in os.listdir(folder) if not entry.startswith("."))
@@ -126,7 +138,7 @@ def count_ratings(folder, names):
     counts, used, incomplete, failed = {}, 0, 0, 0
     for sheet in sheets:
         answers = read_sheet(os.path.join(folder, sheet))
-        if not is_complete(answers):
+        if not is_complete(answers, which):
             incomplete += 1
             continue
         given = [answer for answer in answers if answer]
@@ -151,16 +163,18 @@ def run(arguments):
     files = [path for path in (arguments.file, arguments.out, arguments.ratings) if path]
     if len({os.path.realpath(path) for path in files}) < len(files):
         raise Unusable("the files to read and to write must be different")
-    recordings = ask(__file__, arguments.file, arguments.angles)
+    recordings = ask(__file__, arguments.file, arguments.angles, arguments.set)
     events = recordings["events"]
     if not events:
         raise Unusable(f"{arguments.file}: all entries are empty")
     ratings = None
     if arguments.raters:
-        ratings, raters = count_ratings(arguments.raters, recordings["names"])
+        ratings, raters = count_ratings(arguments.raters, recordings["names"], arguments.set)
     save({"format": "phase-events/1", "events": events}, arguments.out)
-    empty = recordings["entries"] - len(events)
-    tell(f"{len(events)} events in {arguments.out}" + (f" (empty entries: {empty})" if empty else ""))
+    catch = recordings["catch"]
+    empty = recordings["entries"] - len(events) - catch
+    left = [f"{what}: {count}" for what, count in (("empty entries", empty), ("catch trials", catch)) if count]
+    tell(f"{len(events)} events in {arguments.out}" + (f" ({', '.join(left)})" if left else ""))
     if ratings:
         save(ratings, arguments.ratings)
         tell(f"ratings of {len(ratings['ratings'])} events in {arguments.ratings} by {raters}")
@@ -172,6 +186,8 @@ def main():
     parser.add_argument("out", metavar="EVENTS", help="the phase-events/1 file to write")
     parser.add_argument("--raters", metavar="FOLDER", help="the raters' sheets (responses_genset)")
     parser.add_argument("--ratings", metavar="FILE", help="the phase-ratings/1 file to write")
+    parser.add_argument("--set", choices=["test", "main"], default="test",
+                        help="the recordings of the test set, or the 400 others (PHASE/Videos_humanratings)")
     add_angles_option(parser)
     arguments = parser.parse_args()
     if bool(arguments.raters) != bool(arguments.ratings):

@@ -15,6 +15,7 @@ pub const PACKAGES: [(&str, &[(&str, &str)]); 4] = [
             ("check-physics", "Compare an engine of the physics with recorded motion"),
             ("fit-forecast", "Fit how SIMPLE combines simulated futures"),
             ("fit-inference", "Fit how SIMPLE weighs its evidence to events whose labels are known"),
+            ("fit-minds", "Fit the parameters of the minds to recordings or events whose labels are known"),
             ("fit-reports", "Fit how people report what they saw to raters of recordings"),
         ],
     ),

@@ -36,9 +36,9 @@ impl Foresight {
 
 /// The parameters of a PHASE mind: every number that shapes its decisions.
 ///
-/// Those of belief and search, up to `directions`, are the paper's where it gives them; the others were set
-/// by hand, as `docs/explanation/minds.md` says. Ranges are checked where parameters enter a program, by
-/// `phase_minds::MindParameters::validate`.
+/// Those of belief and search, up to `directions`, are the paper's where it gives them; `cargo xtask
+/// fit-minds` fits the others, and `docs/explanation/minds.md` says what was fitted to which events. Ranges
+/// are checked where parameters enter a program, by `phase_minds::MindParameters::validate`.
 #[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PhaseParameters {

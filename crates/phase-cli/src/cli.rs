@@ -11,6 +11,10 @@ use crate::{
         self,
         options::{GenDataset, Merge},
     },
+    laboratory::{
+        self, AreaOptions, ClipOptions, ObserveOptions,
+        sets::{self, MatrixOptions, PackOptions, PairingOptions},
+    },
     man::{self, ManPages},
     new_scene::{self, options::NewScene},
     playground::{self, Playground},
@@ -51,6 +55,18 @@ pub enum Command {
     Verify(Verify),
     /// Turn events into videos, or into pictures of their key frames
     Render(Render),
+    /// Cut clips of one length out of events, as videos, frames or GIFs, with their labels
+    Clip(ClipOptions),
+    /// Write what SIMPLE makes of events, and their motion, in chunks of time, as tables of regressors (BIDS)
+    Observe(ObserveOptions),
+    /// Write where bodies and landmarks are in every frame, as areas of interest for eye tracking
+    Aoi(AreaOptions),
+    /// Make dissimilarity matrices of answers, ratings and other features, and correlate them
+    Rdm(MatrixOptions),
+    /// Find events of different kinds that are alike in low-level motion
+    Match(PairingOptions),
+    /// Pack videos for PsychoPy, Pavlovia, Gorilla, Children Helping Science or Qualtrics
+    Pack(PackOptions),
     /// Evaluate how well a method perceives events: recognises goals and relations, or predicts trajectories
     #[command(subcommand)]
     Eval(Eval),
@@ -90,6 +106,12 @@ impl Interface for Command {
             Self::Stats(arguments) => stats::run(arguments, context),
             Self::Simulate(arguments) => simulate::run(arguments, context),
             Self::Render(arguments) => render::run(arguments, context),
+            Self::Clip(arguments) => laboratory::clip(arguments, context),
+            Self::Observe(arguments) => laboratory::observe(arguments, context),
+            Self::Aoi(arguments) => laboratory::areas(arguments, context),
+            Self::Rdm(arguments) => sets::matrices(arguments, context),
+            Self::Match(arguments) => sets::pairing(arguments, context),
+            Self::Pack(arguments) => sets::pack(arguments, context),
             Self::Eval(arguments) => eval::run(arguments, context),
             Self::Train(arguments) => train::run(arguments, context),
             Self::Benchmark(arguments) => benchmark::run(arguments, context),

@@ -58,6 +58,7 @@ pub mod export;
 pub mod gen_dataset;
 pub mod interrupt;
 pub mod json_file;
+pub mod laboratory;
 pub mod look;
 pub mod man;
 pub mod named;

@@ -108,7 +108,7 @@ def test_limits_are_said(scene, event):
         (lambda: PhaseVectorEnv(4, pool=10**9), "pool is"),
         (lambda: phase.generate("demo", 1, "/nowhere/x", jobs=3000), "jobs is a whole number from 1 to 1024"),
         (lambda: phase.forecast(event, steps=10**6), "steps is a whole number from 1 to 10000"),
-        (lambda: _native.Worlds([scene], "world", False, 3000), "threads is"),
+        (lambda: _native.Worlds([scene], "world", False, 3000), "`threads` must be 1 to 1024"),
         (lambda: phase.Observer(scene, event.trajectory[0], decisions=10**9), "decisions is"),
     ):
         with pytest.raises(phase.PhaseError, match=sentence):

@@ -1,6 +1,6 @@
 //! Agents and objects, solid or as a faint belief.
 
-use crate::{Colour, Palette, painter::Painter};
+use crate::{Colour, Palette, Style, painter::Painter};
 use phase_model::{AgentId, Body, Entity, PhysicsConfig, State, Vec2, geometry};
 
 /// Width of the outline of a body, all of it inside the body's shape (u).
@@ -26,8 +26,10 @@ pub(crate) fn entities(physics: &PhysicsConfig) -> impl Iterator<Item = Entity> 
     physics.entities()
 }
 
-/// Draws all bodies of a state: agents, objects on top, and a mark at each grip.
-pub(crate) fn draw(painter: &mut Painter, palette: &Palette, physics: &PhysicsConfig, state: &State) {
+/// Draws all bodies of a state: agents, objects on top, and, unless the style is without, a mark at each
+/// grip.
+pub(crate) fn draw(painter: &mut Painter, style: &Style, physics: &PhysicsConfig, state: &State) {
+    let palette = &style.palette;
     for entity in entities(physics) {
         let body = state.body(entity);
         let radius = physics.radius(entity);
@@ -39,7 +41,7 @@ pub(crate) fn draw(painter: &mut Painter, palette: &Palette, physics: &PhysicsCo
             }
         }
     }
-    for agent in AgentId::ALL {
+    for agent in AgentId::ALL.into_iter().filter(|_| style.grips) {
         draw_grip(painter, palette, physics, state, agent);
     }
 }

@@ -55,12 +55,11 @@ impl SceneRenderer {
     /// Bodies whose pose is not finite, or which lie outside the picture, are left out.
     #[must_use]
     pub fn frame(&self, state: &State, overlay: Option<&Overlay<'_>>) -> Frame {
-        let palette = &self.style.palette;
         let mut painter = Painter { pixmap: self.background.clone(), view: View::of(&self.style) };
         if let Some(overlay) = overlay {
             self.draw_overlay(&mut painter, overlay);
         }
-        bodies::draw(&mut painter, palette, &self.physics, state);
+        bodies::draw(&mut painter, &self.style, &self.physics, state);
         if let Some(overlay) = overlay {
             self.draw_title(&mut painter.pixmap, overlay.title);
             caption::draw(&mut painter.pixmap, &self.style, &self.font, overlay.captions);
@@ -89,7 +88,7 @@ impl SceneRenderer {
     #[must_use]
     pub fn annotated(&self, state: &State, annotation: &Annotation<'_>) -> Frame {
         let mut painter = Painter { pixmap: self.background.clone(), view: View::of(&self.style) };
-        bodies::draw(&mut painter, &self.style.palette, &self.physics, state);
+        bodies::draw(&mut painter, &self.style, &self.physics, state);
         self.draw_title(&mut painter.pixmap, annotation.title);
         caption::draw(&mut painter.pixmap, &self.style, &self.font, annotation.captions);
         if let Some(course) = &annotation.course {

@@ -24,6 +24,8 @@ pub struct Style {
     pub course_lines: u32,
     /// The colours.
     pub palette: Palette,
+    /// Whether a dark bar marks each grip. Recordings of the published simulator have none.
+    pub grips: bool,
 }
 
 /// Space between legend and captions (pixels).
@@ -41,6 +43,7 @@ impl Default for Style {
             caption_lines: 0,
             course_lines: 0,
             palette: Palette::default(),
+            grips: true,
         }
     }
 }

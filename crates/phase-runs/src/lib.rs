@@ -71,6 +71,7 @@ pub mod figures;
 mod gallery_writer;
 pub mod gen_dataset;
 pub mod interrupt;
+pub mod laboratory;
 pub mod leaderboard;
 pub mod listener;
 mod motion;

@@ -26,6 +26,7 @@
 //!     rounds: 5,
 //!     game: GameSettings::default(),
 //!     seed: 1,
+//!     only_studies: false,
 //! };
 //! let item = Item { source: "mine".into(), scene };
 //! let server = Server::bind(settings, item.clone(), vec![item], None)?;

@@ -4,7 +4,7 @@ use crate::{
     Hypothesis, ImaginedAgents, InverseDynamics, beliefs::EstimatedBeliefs, simulation_run::SimulationRun,
 };
 use phase_event::{ObservedEvent, Thought};
-use phase_minds::SearchMemo;
+use phase_minds::{MindParameters, SearchMemo};
 use phase_model::{
     AGENT_COUNT, Action, AgentId, Body, Entity, MAX_ENTITIES, Vec2,
     random::{self, Pcg64Mcg, Purpose},
@@ -180,9 +180,45 @@ impl PreparedEvent {
         Ok(decided)
     }
 
-    /// Minds that decide at observed states one by one. Every decision starts from the observed state and the
-    /// inferred last actions, and has a random stream of its own, so that it depends on no other. The minds
-    /// share their searches with others of this event.
+    /// Lets one agent decide at some steps of the event under a hypothesis, with these parameters in place of
+    /// the event's own, while the other replays its inferred actions. Steps that the event does not have are
+    /// left out.
+    ///
+    /// Every decision starts from the observed state and the inferred last actions, and has a random stream
+    /// of its own, so that it depends on no other: at any step, all hypotheses and parameters use the same
+    /// random numbers. There are as many particles as the event was prepared with.
+    ///
+    /// # Errors
+    ///
+    /// Invalid parameters of the agents' search.
+    pub fn decide_at(
+        &self,
+        hypothesis: &Hypothesis,
+        agent: AgentId,
+        minds: MindParameters,
+        steps: &[usize],
+    ) -> Result<Vec<AgentDecision>, PomcpError> {
+        let rows = self.observed.rows();
+        let agents = self.agents.with_minds(minds);
+        let start = self.motion.states[0];
+        let mut run = SimulationRun::new(&self.observed, hypothesis, agents, self.seed, start, None)?;
+        let mut decided = Vec::with_capacity(steps.len());
+        for &step in steps.iter().filter(|&&step| step < self.observed.steps()) {
+            let (action, thought) = self.decide(&mut run, agent, step)?;
+            let mut actions = self.motion.actions[step];
+            actions[agent] = action;
+            let means = run.act(actions);
+            decided.push(AgentDecision {
+                action,
+                thought,
+                deviation: self.deviation(&means, &rows[step + 1]),
+            });
+        }
+        Ok(decided)
+    }
+
+    /// Minds that decide at observed states one by one, as those of [`PreparedEvent::decide_at`] with the
+    /// event's own parameters. They share their searches with others of this event.
     pub(crate) fn run(&self, hypothesis: &Hypothesis) -> Result<SimulationRun, PomcpError> {
         let start = self.motion.states[0];
         let memo = Some(&self.memo);

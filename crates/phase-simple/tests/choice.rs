@@ -105,3 +105,29 @@ fn an_agent_at_rest_is_likelier_to_want_to_be_where_it_is() {
     let [here, elsewhere] = [LandmarkId::TOP_LEFT, LandmarkId::BOTTOM_LEFT].map(mean);
     assert!(here > 0.9 && elsewhere < here, "{here} {elsewhere}");
 }
+
+#[test]
+fn a_decision_at_a_step_depends_on_no_other_and_steps_past_the_end_are_left_out() {
+    let rows = (0..=6_u8).map(|step| {
+        let places = [Vec2::new(23.5, 6.0 + f32::from(step)), Vec2::new(8.5, 19.5), Vec2::ZERO, Vec2::ZERO];
+        let mut row = places.map(|place| Body::at_rest(place, 0.0));
+        row[0].velocity = Vec2::new(0.0, 12.0);
+        row
+    });
+    let layout = Layout::new(0, None).expect("a layout");
+    let observed =
+        ObservedEvent::new(layout, [Size::Small; 2], Vec::new(), rows.collect()).expect("an event");
+    let minds = MindParameters::default().with_particles(5).with_simulations(20);
+    let prepared = PreparedEvent::new(&observed, minds, 1);
+    let agent = AgentId::ZERO;
+    let goal = Goal::AgentOnLandmark { agent, landmark: LandmarkId::TOP_RIGHT, sign: Sign::Positive };
+    let hypothesis = Hypothesis::new([goal; 2], Default::default(), [Strength::Fair; 2]);
+    let at = |steps: &[usize]| {
+        let decided = prepared.decide_at(&hypothesis, agent, minds, steps).expect("sound parameters");
+        decided.into_iter().map(|it| (it.action, policy(&it), it.deviation)).collect::<Vec<_>>()
+    };
+    let all = at(&[0, 1, 2, 3, 4, 5]);
+    assert_eq!(all.len(), 6);
+    assert_eq!(at(&[5, 3]), [all[5], all[3]]);
+    assert_eq!(at(&[4, 6, 100]), [all[4]]);
+}

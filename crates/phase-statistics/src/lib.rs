@@ -5,7 +5,8 @@
 //!   two central values.
 //! - [`wilson_interval`] for a proportion, [`bootstrap_mean`] for the mean of anything,
 //!   [`bootstrap_difference`] for that of two, [`bootstrap`] for any statistic.
-//! - [`pearson`] and [`spearman`] correlations, and [`spearman_brown`] for the reliability of a whole.
+//! - [`pearson`], [`spearman`] and [`kendall`] correlations, the [`semipartial`] one, and [`spearman_brown`]
+//!   for the reliability of a whole.
 //! - [`krippendorff_alpha`] for the agreement of raters, [`standard_deviation`] of a sample,
 //!   [`population_variance`] of all there is.
 //! - [`fisher_exact_greater`] to compare two proportions.
@@ -49,7 +50,7 @@ mod quantile;
 
 pub use agreement::krippendorff_alpha;
 pub use bootstrap::{bootstrap, bootstrap_difference, bootstrap_mean};
-pub use correlation::{pearson, spearman, spearman_brown};
+pub use correlation::{kendall, pearson, semipartial, spearman, spearman_brown};
 pub use fisher::fisher_exact_greater;
 pub use interval::Interval;
 pub use logarithms::{entropy, log_softmax, log_sum_exp, logistic, softmax};

@@ -8,6 +8,7 @@ use crate::{
     fit_events::FitEvents,
     fit_forecast,
     fit_inference::{self, options::FitInference},
+    fit_minds::{self, options::FitMinds},
     fit_reports::{self, options::FitReports},
 };
 use clap::Subcommand;
@@ -28,6 +29,8 @@ pub enum Command {
     CheckBehaviour(CheckBehaviour),
     /// Compare minds with the agents of recordings or events whose labels are known
     CheckMinds(CheckMinds),
+    /// Fit the parameters of the minds to recordings or events whose labels are known
+    FitMinds(FitMinds),
     /// Fit how SIMPLE weighs its evidence to events whose labels are known
     FitInference(FitInference),
     /// Fit how SIMPLE combines simulated futures
@@ -39,7 +42,7 @@ pub enum Command {
 impl Interface for Command {
     type Error = LabError;
 
-    const ABOUT: &'static str = "Fits of inference, and checks of minds, behaviour and physics";
+    const ABOUT: &'static str = "Fits of minds and inference, and checks of minds, behaviour and physics";
 
     fn run(&self, context: &Context) -> Result<(), LabError> {
         match self {
@@ -47,6 +50,7 @@ impl Interface for Command {
             Self::CheckBehaviour(arguments) => check_behaviour::run(arguments, context),
             Self::CheckMinds(arguments) => check_minds::run(arguments, context),
             Self::FitInference(arguments) => fit_inference::run(arguments, context),
+            Self::FitMinds(arguments) => fit_minds::run(arguments, context),
             Self::FitForecast(arguments) => fit_forecast::run(arguments, context),
             Self::FitReports(arguments) => fit_reports::run(arguments),
         }

@@ -1,4 +1,4 @@
-//! Fits of inference to recordings and events whose labels are known, and checks of minds,
+//! Fits of minds and inference to recordings and events whose labels are known, and checks of minds,
 //! behaviour and physics: commands of `cargo xtask`.
 //!
 //! - `check-behaviour` shows how reliably agents do what they are planned to do,
@@ -6,6 +6,7 @@
 //! - `check-physics` compares an engine with recorded motion,
 //! - `fit-forecast` fits how SIMPLE combines simulated futures,
 //! - `fit-inference` fits how SIMPLE weighs its evidence,
+//! - `fit-minds` fits the parameters of minds to recorded agents,
 //! - `fit-reports` fits how people report what they saw.
 //!
 //! Key design decision: a number that was fitted can be fitted again, by a command that anyone can run. The
@@ -24,6 +25,7 @@ mod evaluations_file;
 pub mod fit_events;
 pub mod fit_forecast;
 pub mod fit_inference;
+pub mod fit_minds;
 pub mod fit_reports;
 mod folds;
 mod recognition;

@@ -12,6 +12,7 @@ mod gen_dataset;
 mod hostile;
 mod interruption;
 mod json;
+mod laboratory;
 mod manual;
 mod networks;
 mod new_scene;

@@ -315,3 +315,39 @@ fn the_real_recordings_and_ratings_come_out_as_converted_before() {
         assert!(found == wanted, "{}", wanted["id"]);
     }
 }
+
+/// The other recordings are read in the same way; their file has catch trials, which are no events, and
+/// sheets of any length, which have an answer in every line.
+#[test]
+fn the_other_recordings_have_ids_of_their_own_and_no_catch_trials() {
+    let Some(folder) = made_up() else { return };
+    let folder = folder.path();
+    let script = r#"
+import pickle, json, os
+entries = pickle.load(open("recordings.pkl", "rb"))
+catch = dict(entries[0], name=entries[0]["name"].replace(".mp4", "_mm.mp4"))
+pickle.dump(entries + [catch], open("main.pkl", "wb"))
+os.mkdir("sheets")
+answer = lambda video, said: json.dumps([["video_name", video], ["likert_response", said]])
+catches = [answer(f"D1_E{layout}_x_mm.mp4", said) for layout, said in ((4, "adversarial"), (12, "friendly"), (0, "neutral"))]
+for rater, said in enumerate(["friendly", "friendly", "adversarial"]):
+    # The last rater has left out an answer.
+    lines = ["[]", *catches, answer(entries[0]["name"], said), *(["[]"] if rater == 2 else [])]
+    open(f"sheets/rater-{rater}.txt", "w").write("\n".join(lines) + "\n")
+"#;
+    assert!(python(folder, script).expect("it was there before").status.success());
+    let output = import(
+        folder,
+        &["main.pkl", "main.json", "--set", "main", "--raters", "sheets", "--ratings", "ratings.json"],
+    );
+    let told = String::from_utf8_lossy(&output.stdout).into_owned();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    assert!(told.starts_with("3 events in main.json (empty entries: 1, catch trials: 1)"), "{told}");
+    assert!(told.contains("by 2 raters (1 sheets are incomplete, 0 failed a catch trial)"), "{told}");
+    let events = json_of(&folder.join("main.json"))["events"].clone();
+    let ids: Vec<&str> =
+        events.as_array().expect("a list").iter().filter_map(|event| event["id"].as_str()).collect();
+    assert_eq!(ids, ["phase-main-000", "phase-main-002", "phase-main-003"]);
+    let ratings = json_of(&folder.join("ratings.json"))["ratings"].clone();
+    assert_eq!(ratings, json!({ "phase-main-000": { "friendly": 2, "neutral": 0, "adversarial": 0 } }));
+}

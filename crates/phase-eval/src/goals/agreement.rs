@@ -128,6 +128,14 @@ impl Agreement {
     }
 }
 
+/// The representational similarity of halves of the raters, corrected to all of them: the most that any
+/// answers to these events can be expected to reach. `None` if no event has two ratings or it is not defined.
+#[must_use]
+pub fn similarity_ceiling(counts: &[RatingCounts], seed: u64) -> Option<f64> {
+    let rated: Vec<Rated> = counts.iter().map(|&counts| Rated { said: shares(counts), counts }).collect();
+    Ceiling::of(&rated, seed)?.similarity
+}
+
 impl Ceiling {
     fn of(rated: &[Rated], seed: u64) -> Option<Self> {
         let several: Vec<&Rated> = rated.iter().filter(|event| event.counts.raters() > 1).collect();

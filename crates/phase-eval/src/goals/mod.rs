@@ -10,7 +10,7 @@ mod roles;
 mod sets;
 mod summary;
 
-pub use agreement::{Agreement, Ceiling, UNIFORM_SHARE};
+pub use agreement::{Agreement, Ceiling, UNIFORM_SHARE, similarity_ceiling};
 pub use answer::{Answer, GoalProbability, InvalidAnswer, Label, PartialAnswer, RecognisedEvent, SocialRole};
 pub use calibration::{BINS, Bin, Calibration};
 pub use matching::canonical;

@@ -124,6 +124,18 @@ impl IntentReader {
         }
     }
 
+    /// Activations of the last hidden layer given the rows so far: of each unit the mean over all goals of
+    /// both agents, which share their weights.
+    #[must_use]
+    pub fn activations(&self) -> Vec<f64> {
+        let mut sum = vec![0.0; self.network.units()];
+        for state in &self.states {
+            let active = relu(self.network.hidden.apply(&state.output));
+            sum.iter_mut().zip(active).for_each(|(sum, unit)| *sum += unit);
+        }
+        sum.iter().map(|sum| sum / self.states.len().max(1) as f64).collect()
+    }
+
     /// ln Q of every intent of each agent given the rows so far, but for a constant, in the order of
     /// [`Intent::all`].
     #[must_use]

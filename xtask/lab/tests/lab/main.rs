@@ -4,6 +4,7 @@ mod check_behaviour;
 mod check_minds;
 mod check_physics;
 mod fit_inference;
+mod fit_minds;
 mod fit_reports;
 // Shared with the tests of the program `phase`; not everything is used here.
 #[allow(dead_code)]

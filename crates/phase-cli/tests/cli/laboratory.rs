@@ -1,0 +1,126 @@
+//! Clips, regressors, areas of interest, matrices, matched groups and packs, from one small dataset.
+
+use crate::support::{refuse, succeed, tree};
+use serde_json::Value;
+use std::{collections::BTreeSet, fs, path::Path};
+
+/// Six events of 12 steps with videos.
+fn dataset(path: &Path) {
+    let effort = ["--max-steps", "12", "--simulations", "10", "--particles", "4"];
+    let made =
+        [&["gen-dataset", "--events", "6", "--date-published", "2026-11-23", "--out", "data"], &effort[..]];
+    succeed(path, &made.concat());
+}
+
+fn json(path: &Path) -> Value {
+    serde_json::from_slice(&fs::read(path).expect("a file")).expect("JSON")
+}
+
+/// The cells of a table.
+fn table(path: &Path, separator: char) -> Vec<Vec<String>> {
+    let text = fs::read_to_string(path).expect("a table");
+    text.lines().map(|line| line.split(separator).map(str::to_owned).collect()).collect()
+}
+
+#[test]
+fn events_become_stimuli() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path();
+    dataset(path);
+    let clip = ["clip", "data", "--seconds", "2", "--as", "mp4,png", "--plain", "--size", "96", "--out"];
+    succeed(path, &[&clip[..], &["clips"]].concat());
+    succeed(path, &[&clip[..], &["again", "--jobs", "1"]].concat());
+    assert!(tree(&path.join("clips")) == tree(&path.join("again")), "the same events give the same bytes");
+    assert!(succeed(path, &[&clip[..], &["clips"]].concat()).contains("already"));
+
+    // Two of three seconds, from the middle: steps 2 to 10, frames 10 to 49.
+    let clips = json(&path.join("clips/clips.json"));
+    let first = &clips["clips"][0];
+    assert_eq!((&first["first_step"], &first["steps"]), (&Value::from(2), &Value::from(8)));
+    let id = first["id"].as_str().expect("an id");
+    let source = first["source"].as_str().expect("an id");
+    let pictures = fs::read_dir(path.join("clips").join(id)).expect("frames").count();
+    assert_eq!(pictures, 40);
+    let event = json(&path.join(format!("data/events/{source}.json")));
+    let cut = json(&path.join(format!("clips/{id}.json")));
+    let whole = &event["events"][0]["trajectory"]["agents"][0];
+    let part = &cut["events"][0]["trajectory"]["agents"][0];
+    for row in 1..=8 {
+        assert_eq!(part[row], whole[row + 2]);
+    }
+    // Row 0 is the state itself: the last substep of step 2.
+    let substep = &event["events"][0]["substeps"]["agents"][0][10];
+    assert_eq!((&part[0][0], &part[0][4]), (&substep[0], &substep[4]));
+    assert!(
+        refuse(path, &["clip", "data", "--quiet", "--seconds", "4", "--out", "long"])
+            .contains("does not fit")
+    );
+    assert!(
+        refuse(path, &["clip", "data", "--seconds", "1.1", "--out", "long"])
+            .contains("no whole number of steps")
+    );
+    let left = succeed(path, &["clip", "data", "--seconds", "4", "--shorter", "leave-out", "--out", "short"]);
+    assert!(left.contains("0 clips") && left.contains(source), "{left}");
+
+    succeed(path, &["observe", "data", "--method", "intent-network", "--every", "1s", "--out", "observed"]);
+    let posterior = table(&path.join("observed/desc-posterior_events.tsv"), '\t');
+    assert_eq!(posterior.len(), 1 + 6 * 3);
+    let sum: f64 = posterior[1][4..7].iter().map(|cell| cell.parse::<f64>().expect("a number")).sum();
+    assert!((sum - 1.0).abs() < 1e-5, "{sum}");
+    let about = json(&path.join("observed/desc-posterior_events.json"));
+    assert!(posterior[0].iter().all(|name| about[name]["Description"].is_string()));
+    assert_eq!(table(&path.join("observed/desc-frames_events.tsv"), '\t').len(), 1 + 6 * 60);
+    fs::write(path.join("run.tsv"), format!("onset\tduration\tstim_file\n7.5\t3\t{source}.mp4\n"))
+        .expect("it is written");
+    let shown = [
+        "observe",
+        "data",
+        "--method",
+        "intent-network",
+        "--every",
+        "1",
+        "--presentations",
+        "run.tsv",
+        "--out",
+        "run",
+    ];
+    succeed(path, &shown);
+    let run = table(&path.join("run/desc-motion_events.tsv"), '\t');
+    let onsets: Vec<&str> = run[1..].iter().map(|row| row[0].as_str()).collect();
+    assert_eq!(onsets, ["7.500", "8.500", "9.500"]);
+
+    succeed(path, &["aoi", "data", "--id", source, "--out", "areas.csv"]);
+    let areas = table(&path.join("areas.csv"), ',');
+    let frames: BTreeSet<&str> = areas[1..].iter().map(|row| row[1].as_str()).collect();
+    assert_eq!(frames.len(), 1 + 61, "landmarks, and the frames of the video");
+
+    let features = "net=observed/desc-posterior_events.tsv:relation_";
+    let told = succeed(
+        path,
+        &["rdm", features, "motion=observed/desc-motion_events.tsv", "--target", "net", "--out", "rdm"],
+    );
+    assert!(told.contains("2 matrices of 6 stimuli"), "{told}");
+    assert_eq!(fs::metadata(path.join("rdm/net.npy")).expect("a file").len() % 64, 15 * 8 % 64);
+    assert!(
+        refuse(path, &["rdm", features, "--target", "people", "--out", "rdm"]).contains("there is no matrix")
+    );
+
+    let matched = succeed(path, &["match", "data", "--on", "length", "--out", "matched"]);
+    assert!(matched.contains("1 group of one event of each kind"), "{matched}");
+    assert!(refuse(path, &["match", "data", "--on", "charm", "--out", "matched"]).contains("no measure"));
+
+    for platform in ["psychopy", "pavlovia", "gorilla"] {
+        succeed(
+            path,
+            &["pack", "clips", "--for", platform, "--lists", "2", "--checks", "1", "--out", platform],
+        );
+    }
+    let trials = table(&path.join("psychopy/list2.csv"), ',');
+    assert_eq!(trials.len(), 1 + 6 + 1);
+    for trial in &trials[1..] {
+        assert!(path.join("psychopy").join(&trial[2]).is_file(), "{trial:?}");
+        assert!(path.join("psychopy").join(&trial[3]).join("0039.png").is_file(), "{trial:?}");
+    }
+    assert!(refuse(path, &["pack", "clips", "--for", "psychopy", "--out", "psychopy"]).contains("not empty"));
+    assert!(refuse(path, &["pack", "clips", "--for", "qualtrics", "--out", "q"]).contains("--address"));
+}
