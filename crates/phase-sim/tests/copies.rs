@@ -66,8 +66,7 @@ proptest! {
     }
 }
 
-/// What is saved in the test above is more than places and velocities: a world that is made anew in the saved
-/// state goes on otherwise.
+/// A copy has more than places and velocities: a world that is made anew in the same state goes on otherwise.
 #[test]
 fn a_state_alone_does_not_go_on_alike() {
     let places = [(1.5, 1.5, 0.0), (3.5, 1.5, 0.5), (2.5, 3.6, 0.0), (4.8, 3.4, 0.0)];

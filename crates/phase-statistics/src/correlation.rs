@@ -93,9 +93,9 @@ fn sort_counting(values: &mut [f64]) -> u64 {
     exchanges
 }
 
-/// The semipartial correlation of ranks, −1 to 1: [`pearson`] of the ranks of `target` with what is left of
-/// the ranks of `model` after a linear regression on the ranks of `others`. `None` if lengths differ or
-/// nothing is left.
+/// The semipartial correlation of ranks, −1 to 1: [`pearson`] of the ranks of `target` with the residuals of
+/// a linear regression of the ranks of `model` on the ranks of `others`. `None` if lengths differ or all
+/// residuals are 0.
 #[must_use]
 pub fn semipartial(target: &[f64], model: &[f64], others: &[Vec<f64>]) -> Option<f64> {
     if target.len() != model.len() || others.iter().any(|other| other.len() != model.len()) {

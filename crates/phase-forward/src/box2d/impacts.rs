@@ -78,7 +78,7 @@ impl World<'_> {
         first.filter(|&(time, _)| 1.0 - 10.0 * f32::EPSILON >= time)
     }
 
-    /// The time at which a body hits a wall in what is left of this substep; 1 if it does not.
+    /// The time of a body's impact on a wall in the remainder of this substep; 1 without one.
     fn impact(&mut self, contact: &Contact) -> f32 {
         let (a, b) = contact.bodies;
         let start = self.sweeps[a].start.max(self.sweeps[b].start);

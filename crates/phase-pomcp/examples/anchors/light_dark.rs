@@ -13,7 +13,7 @@ use rand::{Rng, RngExt};
 /// After a move the robot observes its place with an error of normal distribution, whose standard deviation
 /// is the distance from the light at 10.
 pub(crate) struct LightDark {
-    /// What the robot earns from each place if it knows where it is.
+    /// Return from each place of a robot that knows where it is.
     known: Vec<f64>,
     /// Whether branches widen progressively; otherwise every observation has a branch of its own.
     is_widened: bool,
@@ -83,7 +83,7 @@ impl GenerativeModel for LightDark {
         Transition { observation: seen, reward: -1.0, terminal: false }
     }
 
-    /// What is earned if the place is known from now on.
+    /// Return if the place is known from now on.
     fn value_estimate(&self, &place: &i16) -> f64 {
         self.known[index(place)]
     }

@@ -161,7 +161,7 @@ impl MatrixRun {
         listener: &dyn Listener,
     ) -> Result<Vec<String>, RunError> {
         let Some((_, first)) = features.first() else {
-            return Err(RunError::Usage("there is no file of features".into()));
+            return Err(RunError::Usage("features: at least one file is needed".into()));
         };
         let wanted = |id: &&String| self.ids.is_empty() || self.ids.contains(id);
         let everywhere = |id: &&String| features.iter().all(|(_, features)| features.contains_key(*id));

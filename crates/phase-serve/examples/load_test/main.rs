@@ -184,9 +184,9 @@ fn serve(options: &Options, scenes: Vec<Item>, game: GameSettings) -> Result<(),
     Ok(server.run(until)?)
 }
 
-/// What was measured.
+/// Measurements of a run.
 struct Measured {
-    /// How late each step of each player was (ms).
+    /// Lateness of each step of each player (ms).
     lateness: Vec<f64>,
     /// The memory of the server over time (MiB).
     memory: Vec<u64>,

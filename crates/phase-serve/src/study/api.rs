@@ -41,7 +41,7 @@ pub(super) fn routes() -> Router<Arc<App>> {
 }
 
 /// The studies: `{"studies": [{"name", "title"}…]}`.
-/// Where raters are to find nothing but their own study, it is not there.
+/// A server of studies alone does not list them, so that raters find nothing but their own.
 pub(super) async fn list(State(app): State<Arc<App>>) -> Result<Json<Value>, ApiError> {
     if app.settings.only_studies {
         return Err(ApiError::missing());
