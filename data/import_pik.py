@@ -104,7 +104,7 @@ def made_up(flip, mirror_as_published):
 
 
 def self_test(out):
-    name = "D010121_1021040_0_0_0_F8_E{}_GLMO_0_2_1_LMO_0_2_1_ST0_2_SZ1_0_2_3_P1_5_2_4_A0_0_C0_0_AN0.1_0.2_MCTS_L100" \
+    name = "D010121_1021040_0_0_0_F8_E{}_GLMO_0_2_1_LMO_0_2_1_ST0_2_SZ1_0_2_3_P1_5_2_4_A0_0_C0_0_AN0.3_0.0_MCTS_L100" \
            "_R{}_PL1_EL1_0_0_s1000_r10_cI1.25_cB1000_e3"
     events = []
     # Written with a decimal point or without, the attitudes are the same.

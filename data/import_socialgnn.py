@@ -4,10 +4,11 @@
     python3 data/import_socialgnn.py Videos_Test_humanratings recordings.json
     python3 data/import_socialgnn.py Videos_Test_humanratings recordings.json \\
         --raters responses_genset --ratings ratings.json
-    python3 data/import_socialgnn.py Videos_humanratings recordings.json --set main
+    python3 data/import_socialgnn.py Videos_humanratings recordings.json --set main \\
+        --predictions Outputs/Predictions/*_SocialGNN_E --predicted socialgnn.json
 
-Both inputs are in the repository Isik-lab/SocialGNN (MIT licence): the file PHASE/Videos_Test_humanratings and the
-folder PHASE/Human_Experiment_Files/responses_genset. docs/reference/formats/overview.md describes both results. Python 3.9 or later and
+All inputs are in the repository Isik-lab/SocialGNN (MIT licence): the file PHASE/Videos_Test_humanratings, the
+folder PHASE/Human_Experiment_Files/responses_genset, and what networks answered, in the folder Outputs/Predictions. docs/reference/formats/overview.md describes the results. Python 3.9 or later and
 numpy are needed.
 
 What is read. The file is a pickle: a list whose entry k becomes the event `phase-test-k`, or with `--set main`, for the
@@ -15,6 +16,8 @@ What is read. The file is a pickle: a list whose entry k becomes the event `phas
 are skipped.
 An entry is a record with its `name`; recordings.py beside this file says what names and records mean, and what is mended.
 The pickle has no actions.
+A file of answers has two pickles: the right relations by the names of videos, which are not read, and a network's. Each
+file counts as one rater of phase-ratings/1.
 
 The pickle is read in a process of its own, with limits on memory and time; only numpy arrays and plain data are
 admitted.
@@ -25,8 +28,8 @@ import os
 import re
 import sys
 
-from importer import (Failure, Unusable, answer, ask, content_of, import_numpy, is_reading, main_of, open_regular,
-                      read_json, save, tell)
+from importer import (Failure, Unusable, answer, ask, content_of, contents_of, import_numpy, is_reading, main_of,
+                      open_regular, read_json, save, shown, tell)
 from recordings import RELATIONS, add_angles_option, converted, text
 
 # The published file has 100 entries of at most 101 rows and 1.5 MB.
@@ -74,6 +77,32 @@ def converted_entries(path, angles, which):
 
 def is_catch(name):
     return re.sub(r"\.\w{1,5}$", "", name).endswith(CATCH_ENDING)
+
+
+def predictions_of(path):
+    """What a network answered, by the names of videos."""
+    _, answers = contents_of(path, LARGEST_SHEET_BYTES, 2)
+    if type(answers) is not dict or not 0 < len(answers) <= MOST_ENTRIES:
+        raise Unusable(f"must hold answers to 1 to {MOST_ENTRIES} videos in its second pickle")
+    for name, relation in answers.items():
+        if text(relation, "an answer") not in RELATIONS:
+            raise Unusable(f"must hold the relations {', '.join(RELATIONS)}, not {shown(relation)}")
+        text(name, "the name of a video")
+    return answers
+
+
+def count_predictions(paths, names):
+    """A phase-ratings/1 file's content, in which each file is a rater."""
+    counts = {}
+    for path in paths:
+        known = 0
+        for video, relation in ask(__file__, path).items():
+            for event_id in names.get(video, []):
+                counts.setdefault(event_id, dict.fromkeys(RELATIONS, 0))[relation] += 1
+                known += 1
+        if not known:
+            raise Unusable(f"{path}: has no answers about these recordings")
+    return {"format": "phase-ratings/1", "ratings": {name: counts[name] for name in sorted(counts)}}
 
 
 # Raters.
@@ -160,7 +189,8 @@ def count_ratings(folder, names, which):
 # The program.
 
 def run(arguments):
-    files = [path for path in (arguments.file, arguments.out, arguments.ratings) if path]
+    files = [arguments.file, arguments.out, *arguments.predictions]
+    files += [path for path in (arguments.ratings, arguments.predicted) if path]
     if len({os.path.realpath(path) for path in files}) < len(files):
         raise Unusable("the files to read and to write must be different")
     recordings = ask(__file__, arguments.file, arguments.angles, arguments.set)
@@ -170,6 +200,7 @@ def run(arguments):
     ratings = None
     if arguments.raters:
         ratings, raters = count_ratings(arguments.raters, recordings["names"], arguments.set)
+    predicted = count_predictions(arguments.predictions, recordings["names"]) if arguments.predictions else None
     save({"format": "phase-events/1", "events": events}, arguments.out)
     catch = recordings["catch"]
     empty = recordings["entries"] - len(events) - catch
@@ -178,6 +209,9 @@ def run(arguments):
     if ratings:
         save(ratings, arguments.ratings)
         tell(f"ratings of {len(ratings['ratings'])} events in {arguments.ratings} by {raters}")
+    if predicted:
+        save(predicted, arguments.predicted)
+        tell(f"{len(arguments.predictions)} files of answers to {len(predicted['ratings'])} events in {arguments.predicted}")
 
 
 def main():
@@ -188,15 +222,19 @@ def main():
     parser.add_argument("--ratings", metavar="FILE", help="the phase-ratings/1 file to write")
     parser.add_argument("--set", choices=["test", "main"], default="test",
                         help="the recordings of the test set, or the 400 others (PHASE/Videos_humanratings)")
+    parser.add_argument("--predictions", metavar="FILE", nargs="+", default=[], help="networks' answers (Outputs/Predictions)")
+    parser.add_argument("--predicted", metavar="FILE", help="the phase-ratings/1 file to write of them")
     add_angles_option(parser)
     arguments = parser.parse_args()
     if bool(arguments.raters) != bool(arguments.ratings):
         parser.error("--raters and --ratings go together")
+    if bool(arguments.predictions) != bool(arguments.predicted):
+        parser.error("--predictions and --predicted go together")
     main_of(run, arguments)
 
 
 if __name__ == "__main__":
     if is_reading(sys.argv):
-        answer(converted_entries, *sys.argv[2:])
+        answer(converted_entries if len(sys.argv) > 3 else predictions_of, *sys.argv[2:])
     else:
         main()

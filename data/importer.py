@@ -166,9 +166,14 @@ def open_regular(path, largest):
 
 def content_of(path, largest):
     """The content of a file of at most so many bytes."""
+    return contents_of(path, largest, 1)[0]
+
+
+def contents_of(path, largest, count):
+    """The contents of so many pickles, one after the other in a file of at most so many bytes."""
     try:
         with open_regular(path, largest) as stream:
-            return load(stream)
+            return [load(stream) for _ in range(count)]
     except (Unusable, Failure, MemoryError):
         raise
     except OSError as error:

@@ -15,6 +15,8 @@ and its name looks like
 
     D...E<layout>[.<flip>]_G<goal>_<goal>_ST<a>_<b>_SZ<a>_<b>_<c>_<d>_P<a>_<b>_<c>_<d>_..._L<steps>_R<alpha>_<alpha>_...
 
+A `_AN<angle>_<angle>_` among the other fields gives the agents' first angles (rad), before the mirroring.
+
 Name and record are understood whole or refused: what cannot be read, or is told in two ways, is never replaced by a
 usual value. Goals, attitudes, the layout and the number of steps are only in the name: `physical_goals` numbers
 entities in one way in some records and in another way in others, so it is not read.
@@ -57,6 +59,9 @@ FIFTH = TURN / SUBSTEPS
 PARTS_OF_UNIT = 1e5
 # A size or strength is the level whose value is this near to it, as a part of the largest value.
 LEVEL_TOLERANCE = 1e-3
+
+# Names have angles with two digits after the point (rad).
+ANGLE_ROUNDING = 0.006
 
 # The published recordings have at most 101 rows, and 6 walls.
 MOST_ROWS = 2000
@@ -177,6 +182,9 @@ def parse_name(name):
     starts = [int(place) for place in found["starts"].split("_")]
     if max(starts) >= len(STARTS):
         raise Unusable(f"its name gives the place {max(starts)}, which does not exist")
+    angles = re.findall(r"_AN([^_]*)(?:_([^_]*))?", name)
+    if len(angles) > 1 or any(not is_angle(angle) for pair in angles for angle in pair):
+        raise Unusable(f"its name gives start angles that are not two numbers from -2 pi to 2 pi: {shown(name)}")
     return {
         "base": base,
         "flip": None if flip is None else int(flip),
@@ -184,9 +192,14 @@ def parse_name(name):
         "strength_levels": levels(found["strengths"], FORCES),
         "size_levels": levels(found["sizes"], RADII),
         "starts": starts,
+        "angles": [float(angle) for angle in angles[0]] if angles else None,
         "steps": int(found["steps"]),
         "alphas": [float(alpha) for alpha in found["alphas"].split("_")],
     }
+
+
+def is_angle(text):
+    return re.fullmatch(NUMBER, text, re.ASCII) is not None and abs(float(text)) <= TURN
 
 
 def levels(digits, table):
@@ -392,9 +405,17 @@ def trajectory_of(record, name, steps, agents_swapped, angles, published):
         raise Unusable(f"`trajectories` must have {ENTITIES} entities")
     tracks = [table_rows(table) for table in tables]
     # Objects' rows run on after the agents' end.
-    rows = min(len(track) for track in tracks[:AGENTS])
-    if any(len(track) < rows for track in tracks):
-        raise Unusable("`trajectories` must have as many rows of every object as of the agents")
+    (rows, other), objects = ([len(track) for track in part] for part in (tracks[:AGENTS], tracks[AGENTS:]))
+    if rows != other:
+        raise Unusable(f"`trajectories` must have as many rows of one agent as of the other, not {rows} and {other}")
+    if len(set(objects)) > 1 or objects[0] < rows:
+        raise Unusable(f"`trajectories` must have as many rows of both objects, and at least the agents' {rows}, "
+                       f"not {objects[0]} and {objects[1]}")
+    angles_told = name["angles"] and internal(name["angles"], agents_swapped)
+    if name["flip"] is None and angles_told:
+        for track, angle in zip(tracks, angles_told):
+            if abs(track[0][4] - angle) > ANGLE_ROUNDING:
+                raise Unusable(f"its name lets an agent start at {angle} rad, its row 0 at {track[0][4]:.2f} rad")
     tracks = [track[:rows] for track in tracks]
     if steps and rows > steps + 1:
         if rows > SUBSTEPS * steps + 1 or (rows - 1) % SUBSTEPS:

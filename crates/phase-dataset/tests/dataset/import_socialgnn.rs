@@ -16,7 +16,7 @@ const REAL: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/real-ph
 /// at a diagonal, and an empty one, all with the defects of the published ones.
 const MADE_UP: &str = r#"
 import pickle, numpy
-NAME = "D010121_1021040_0_F8_E{}_G{}_ST0_3_SZ0_1_2_3_P1_5_2_4_A0_0_C0_0_AN0.1_0.2_MCTS_L{}_R{}_PL1_EL1_0_0_s1000.mp4"
+NAME = "D010121_1021040_0_F8_E{}_G{}_ST0_3_SZ0_1_2_3_P1_5_2_4_A0_0_C0_0_AN0.5_0.12_MCTS_L{}_R{}_PL1_EL1_0_0_s1000.mp4"
 LANDMARKS = [(8.5, 19.5), (23.5, 19.5), (23.5, 4.5), (8.5, 4.5)]
 def entry(layout, goals, steps, alphas, code, sizes, walls, tracks):
     return {"name": NAME.format(layout, goals, steps, alphas), "trajectories": [numpy.array(track) for track in tracks],
@@ -67,7 +67,7 @@ for name, content in bad.items():
 "#;
 
 /// Runs Python in a folder; none if it or numpy is absent.
-fn python(folder: &Path, script: &str) -> Option<Output> {
+pub(crate) fn python(folder: &Path, script: &str) -> Option<Output> {
     let there = Command::new("python3").args(["-c", "import numpy"]).output();
     if !there.is_ok_and(|output| output.status.success()) {
         println!("skipped: there is no python3 with numpy");
@@ -76,16 +76,16 @@ fn python(folder: &Path, script: &str) -> Option<Output> {
     Some(Command::new("python3").args(["-c", script]).current_dir(folder).output().expect("python3"))
 }
 
-fn import(folder: &Path, arguments: &[&str]) -> Output {
+pub(crate) fn import(folder: &Path, arguments: &[&str]) -> Output {
     Command::new("python3").arg(IMPORTER).args(arguments).current_dir(folder).output().expect("python3")
 }
 
-fn json_of(path: &Path) -> Value {
+pub(crate) fn json_of(path: &Path) -> Value {
     serde_json::from_slice(&fs::read(path).expect("a file")).expect("JSON")
 }
 
 /// A folder with `recordings.pkl`; none if it cannot be made here.
-fn made_up() -> Option<TempDir> {
+pub(crate) fn made_up() -> Option<TempDir> {
     let folder = tempfile::tempdir().expect("a folder");
     let output = python(folder.path(), MADE_UP)?;
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
@@ -102,7 +102,7 @@ fn imported(folder: &Path, options: &[&str]) -> Vec<Value> {
 }
 
 /// Refused as bad input, in one sentence, without a result.
-fn assert_refused(folder: &Path, arguments: &[&str], wanted: &str) {
+pub(crate) fn assert_refused(folder: &Path, arguments: &[&str], wanted: &str) {
     let output = import(folder, arguments);
     let sentence = String::from_utf8_lossy(&output.stderr).into_owned();
     assert_eq!(output.status.code(), Some(2), "{arguments:?}: {sentence}");
@@ -242,7 +242,7 @@ fn sheets_of_careful_raters_are_counted() {
     fs::create_dir(&raters).expect("a folder");
     let name = |layout: &str, goals: &str, steps: u32, alphas: &str| {
         format!(
-            "D010121_1021040_0_F8_E{layout}_G{goals}_ST0_3_SZ0_1_2_3_P1_5_2_4_A0_0_C0_0_AN0.1_0.2_MCTS_L{steps}_\
+            "D010121_1021040_0_F8_E{layout}_G{goals}_ST0_3_SZ0_1_2_3_P1_5_2_4_A0_0_C0_0_AN0.5_0.12_MCTS_L{steps}_\
              R{alphas}_PL1_EL1_0_0_s1000.mp4"
         )
     };
