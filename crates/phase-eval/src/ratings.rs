@@ -1,5 +1,6 @@
 //! `phase-ratings/1`: how people rated the relations of events.
 
+use core::ops::AddAssign;
 use phase_event::EventReadError;
 use phase_model::json::{Field, FieldError, check_format};
 use serde::{Deserialize, Serialize};
@@ -35,6 +36,14 @@ impl RatingCounts {
     #[must_use]
     pub const fn raters(&self) -> usize {
         self.friendly + self.adversarial + self.neutral
+    }
+}
+
+impl AddAssign for RatingCounts {
+    fn add_assign(&mut self, other: Self) {
+        self.friendly += other.friendly;
+        self.adversarial += other.adversarial;
+        self.neutral += other.neutral;
     }
 }
 

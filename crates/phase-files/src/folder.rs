@@ -3,7 +3,9 @@
 use crate::{
     WriteError, atomic,
     error::{plain_reason, shown},
-    fault, json, private,
+    fault,
+    incidental::is_incidental,
+    json, private,
     run::{self, RUN_FORMAT, Run},
 };
 use phase_model::foreign;
@@ -101,7 +103,10 @@ pub fn inspect(path: &Path, last_file: &str) -> Result<Contents, FolderError> {
     };
     let mut names: Vec<String> =
         entries.flatten().map(|entry| entry.file_name().to_string_lossy().into_owned()).collect();
-    names.retain(|name| name != LOCK && !(atomic::is_part(name) && name.starts_with(&format!(".{MARKER}"))));
+    names.retain(|name| {
+        let is_part = atomic::is_part(name) && name.starts_with(&format!(".{MARKER}"));
+        name != LOCK && !is_part && !is_incidental(name.as_ref())
+    });
     names.sort();
     if names.is_empty() {
         return Ok(Contents::Nothing);

@@ -6,6 +6,7 @@
 //!   run.
 //! - [`run`] says which run it is, and hashes its description; two runs are compared by it.
 //! - [`regular`] reads files, and only those that are regular; [`json`] reads files of JSON.
+//! - [`incidental`] names the files that systems and tools leave in folders.
 //! - [`fault`] interrupts a program, on demand, at any step of writing.
 //! - [`FileError`] and [`WriteError`] name the file and what is wrong with it in one plain sentence.
 //!
@@ -44,6 +45,7 @@ pub mod checksum;
 mod error;
 pub mod fault;
 pub mod folder;
+pub mod incidental;
 pub mod json;
 pub mod measured;
 pub mod private;

@@ -1,9 +1,10 @@
 """Steps a second of PHASE's environments beside those of PettingZoo's MPE and of VMAS, in one run on one core.
 
 A step is one of every environment: both agents of a PHASE world, all agents of `simple_tag`. Seconds are of CPU time. Actions are random and
-drawn before the clock starts. MPE and VMAS are measured where they are installed (`pip install mpe2 vmas`).
+drawn before the clock starts. MPE and VMAS are measured where they are installed (`pip install mpe2 vmas`). `--only cores` measures vector
+environments with one thread and with one for each core, in turns, in seconds of the clock: the machine has to be idle.
 
-Usage: steps_per_second.py [--seconds 2] [--only engine|learning|others]
+Usage: steps_per_second.py [--seconds 2] [--only engine|learning|others|cores]
 """
 
 import argparse
@@ -14,8 +15,11 @@ import time
 # One core for everybody.
 for variable in ("OMP_NUM_THREADS", "MKL_NUM_THREADS"):
     os.environ[variable] = "1"
+CORES = os.cpu_count() or 1
 if hasattr(os, "sched_setaffinity"):
-    os.sched_setaffinity(0, {0})
+    ALL_CORES = os.sched_getaffinity(0)
+    CORES = len(ALL_CORES)
+    os.sched_setaffinity(0, {min(ALL_CORES)})
 
 import numpy as np
 
@@ -24,15 +28,15 @@ from phase_events.env import PhaseEnv, PhaseParallelEnv
 from phase_events.vector import PhaseVectorEnv
 
 
-def rate(step, environments, seconds):
+def rate(step, environments, seconds, clock=time.process_time):
     """Steps of an environment a second."""
     for _ in range(3):
         step()
-    count, begun = 0, time.process_time()
-    while time.process_time() - begun < seconds:
+    count, begun = 0, clock()
+    while clock() - begun < seconds:
         step()
         count += 1
-    return count * environments / (time.process_time() - begun)
+    return count * environments / (clock() - begun)
 
 
 def phase_single(engine):
@@ -47,8 +51,8 @@ def phase_single(engine):
     return step
 
 
-def phase_vector(worlds, engine, observation="view"):
-    env = PhaseVectorEnv(worlds, engine=engine, threads=1, observation=observation, pool=128, copy=False)
+def phase_vector(worlds, engine, observation="view", threads=1):
+    env = PhaseVectorEnv(worlds, engine=engine, threads=threads, observation=observation, pool=128, copy=False)
     env.reset(seed=1)
     actions = np.random.default_rng(0).integers(14, size=(50, 2 * worlds))
     k = iter(range(10**9))
@@ -115,7 +119,7 @@ def vmas(worlds):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--seconds", type=float, default=2.0, help="how long each is measured")
-    parser.add_argument("--only", choices=("engine", "learning", "others"), help="one part")
+    parser.add_argument("--only", choices=("engine", "learning", "others", "cores"), help="one part")
     arguments = parser.parse_args()
     seconds, measured = arguments.seconds, {}
     parts = (arguments.only,) if arguments.only else ("engine", "learning", "others")
@@ -150,6 +154,19 @@ def main():
         measure("mpe simple_tag", mpe, 1)
         for worlds in (1, 64, 1024):
             measure(f"vmas simple_tag {worlds}", vmas, worlds, worlds)
+    if "cores" in parts:
+        if hasattr(os, "sched_setaffinity"):
+            os.sched_setaffinity(0, ALL_CORES)
+        for worlds in (64, 1024):
+            for engine, observation in (("world", "view"), ("forward", "view"), ("forward", "state")):
+                # In turns, so that both see the same machine.
+                steps = {threads: phase_vector(worlds, engine, observation, threads) for threads in (1, CORES)}
+                for _ in range(3):
+                    for threads, step in steps.items():
+                        name = f"phase vector {worlds} {engine}, {observation}, {threads} threads"
+                        measured.setdefault(name, []).append(round(rate(step, worlds, seconds, time.perf_counter)))
+        for name, rates in measured.items():
+            print(f"{name:<50} {rates}", flush=True)
     print(json.dumps(measured))
 
 

@@ -61,7 +61,7 @@ fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(scene::goal_index, module)?)?;
     module.add_function(wrap_pyfunction!(perceive::infer, module)?)?;
     module.add_function(wrap_pyfunction!(perceive::forecast, module)?)?;
-    module.add_function(wrap_pyfunction!(perceive::compare, module)?)?;
+    module.add_function(wrap_pyfunction!(perceive::compare_results, module)?)?;
     module.add_function(wrap_pyfunction!(perceive::methods, module)?)?;
     module.add_function(wrap_pyfunction!(command::run, module)?)?;
     module.add_function(wrap_pyfunction!(command::submit, module)?)?;

@@ -2,17 +2,13 @@
 
 use crate::{error::raise, observed::Observed};
 use core::ops::ControlFlow;
-use phase_eval::{
-    comparison::{ForecastDifference, GoalDifference},
-    goals::Answer,
-};
+use phase_eval::goals::Answer;
 use phase_runs::{
     effort::MindChoice,
-    eval::{methods as named, networks},
+    eval::{compare, methods as named, networks},
 };
 use pyo3::prelude::*;
-use serde::de::DeserializeOwned;
-use serde_json::{Value, json};
+use serde_json::json;
 use std::sync::Arc;
 
 /// Runs a computation without the interpreter's lock, and stops it when Python has a signal to handle.
@@ -93,28 +89,15 @@ pub(crate) fn methods() -> (Vec<&'static str>, Vec<&'static str>) {
 /// Scores of one method less those of another on the same events, from the results of both at a task, as
 /// JSON. `PhaseError` for results that are none, and of other events.
 #[pyfunction]
-pub(crate) fn compare(py: Python<'_>, task: &str, one: &str, other: &str, seed: u64) -> PyResult<String> {
-    let difference = py.detach(|| -> Result<Value, String> {
-        let text = |error: &dyn core::error::Error| error.to_string();
-        let value = if task == "goals" {
-            let events = [events_of(one)?, events_of(other)?];
-            let difference =
-                GoalDifference::of(&events[0], &events[1], seed).map_err(|error| text(&error))?;
-            serde_json::to_value(difference)
-        } else {
-            let events = [events_of(one)?, events_of(other)?];
-            let difference =
-                ForecastDifference::of(&events[0], &events[1], seed).map_err(|error| text(&error))?;
-            serde_json::to_value(difference)
-        };
-        value.map_err(|error| text(&error))
-    });
+#[pyo3(name = "compare")]
+pub(crate) fn compare_results(
+    py: Python<'_>,
+    task: &str,
+    one: &str,
+    other: &str,
+    seed: u64,
+) -> PyResult<String> {
+    let parsed = |results| serde_json::from_str(results).map_err(|error| error.to_string());
+    let difference = py.detach(|| compare::difference(task, parsed(one)?, parsed(other)?, seed));
     difference.map(|difference| difference.to_string()).map_err(raise)
-}
-
-/// The events of results of an evaluation.
-fn events_of<E: DeserializeOwned>(results: &str) -> Result<Vec<E>, String> {
-    let unlike = |error| format!("results of another task, or none: {error}");
-    let mut results: Value = serde_json::from_str(results).map_err(unlike)?;
-    serde_json::from_value(results["events"].take()).map_err(unlike)
 }

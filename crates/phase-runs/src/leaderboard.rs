@@ -17,7 +17,9 @@ use phase_eval::{
     benchmark::{Benchmark, EventSet, GENERATED, PAIRS, RECORDED},
 };
 use phase_event::check_id;
-use phase_files::{FileError, Problem, WriteError, atomic, checksum::sha256_hex, json};
+use phase_files::{
+    FileError, Problem, WriteError, atomic, checksum::sha256_hex, incidental::is_incidental, json,
+};
 use phase_report::evaluation::{self, LEADERBOARD_FORMAT, Measures, Score, Scores, Source};
 use serde::de::DeserializeOwned;
 use serde_json::Value;
@@ -131,7 +133,7 @@ pub fn predictions(root: &Path) -> Result<Vec<Predictions>, RunError> {
     for (set, task) in sets.flat_map(|set| TASKS.map(|task| (set, task))) {
         // A folder that is not there holds no predictions.
         let entries = fs::read_dir(root.join(FOLDER).join(set).join(task)).into_iter().flatten().flatten();
-        let files = entries.map(|entry| entry.path());
+        let files = entries.filter(|entry| !is_incidental(&entry.file_name())).map(|entry| entry.path());
         for file in files.filter(|file| file.extension().is_some_and(|ending| ending == "json")) {
             let sha256 = sha256_hex(&json::bytes(&file)?);
             let method = file.file_stem().unwrap_or_default().to_string_lossy().into_owned();

@@ -32,6 +32,18 @@ pub fn seeds(target: &str) -> Vec<Vec<u8>> {
             r#"{"events": [{"id": "a", "goals": [[{"goal": {"kind": "touch", "agent": 0, "other": 1, "sign": 1}, "p": 1.0}], [{"goal": {"kind": "touch", "agent": 1, "other": 0, "sign": 1}, "p": 1.0}]], "relation": {"friendly": 0.04201006613406606, "adversarial": 0.8437947344813396, "neutral": 0.1141951993845945}}]}"#,
             r#"{"events": [{"id": "a", "forecast": [[[8.1, 19.2], [8.2, 19.3]], [[20, 8], [20, 8]]]}]}"#,
         ]),
+        "ratings" => texts(&[
+            r#"{"format": "phase-ratings/1", "ratings": {"a": {"friendly": 1, "neutral": 0, "adversarial": 2}}}"#,
+        ]),
+        "jspsych" => texts(&[
+            r#"[{"trial_type": "phase-rating", "form": "relation", "event": "a", "response": {"relation": "neutral"}, "correct": null}]"#,
+            "\"trial_type\",\"form\",\"event\",\"response\",\"correct\"\r\n\"phase-rating\",\"relation\",\"a\",\"{\"\"relation\"\":\"\"neutral\"\"}\",\"null\"\r\n",
+        ]),
+        "answers" => texts(&[
+            r#"{"relation": "friendly"}"#,
+            r#"{"interactions": ["chasing", "helping"]}"#,
+            r#"{"goal_0": "agent on blue", "goal_1": "touch", "relation": "neutral", "human_likeness": "5"}"#,
+        ]),
         "journal" => texts(&[concat!(
             "{\"entry\":\"began\",\"round\":0}\n",
             "{\"entry\":\"step\",\"actions\":[\"up\",\"left\"]}\n",

@@ -12,16 +12,19 @@ mod texts;
 pub type Check = fn(&[u8]);
 
 /// Every target, by its name.
-pub const TARGETS: [(&str, Check); 19] = [
+pub const TARGETS: [(&str, Check); 22] = [
     ("events", texts::events),
     ("scene", texts::scene),
     ("preset", texts::preset),
     ("paths", texts::paths),
     ("settings", texts::settings),
     ("predictions", texts::predictions),
+    ("ratings", texts::ratings),
+    ("jspsych", texts::jspsych),
     ("journal", texts::journal),
     ("message", texts::message),
     ("study", texts::study),
+    ("answers", texts::answers),
     ("forms", texts::forms),
     ("report_model", texts::report_model),
     ("calibration", texts::calibration),

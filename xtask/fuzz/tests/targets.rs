@@ -8,13 +8,22 @@ use phase_dataset::{
     shard::{SHARD_FILE, SLOTS_FILE, Shard},
     slot_record::SlotRecord,
 };
-use phase_eval::predictions;
+use phase_eval::{predictions, ratings};
 use phase_fuzz::{fuzzing, seeds::seeds, targets};
 use phase_game::{FromPlayer, journal};
-use phase_model::{Scene, json, path::RelativePath};
+use phase_model::{
+    Scene,
+    json::{self, Field},
+    path::RelativePath,
+};
 use phase_sim::SimulationSettings;
 use phase_simple::ReportModel;
-use phase_study::{config::StudyConfig, forms::Forms};
+use phase_study::{
+    config::StudyConfig,
+    export::participants,
+    forms::{Form, Forms},
+    question::Responses,
+};
 use std::{cell::Cell, fs, path::Path};
 
 /// Mutations of each target.
@@ -62,7 +71,7 @@ fn seeds_are_accepted() {
     let text = |bytes: &[u8]| String::from_utf8(bytes.to_vec()).expect("a text");
     type Accepts<'a> = (&'a str, &'a dyn Fn(&[u8]) -> bool);
     let forms = Forms::read(phase_data::FORMS).expect("forms");
-    let readers: [Accepts<'_>; 11] = [
+    let readers: [Accepts<'_>; 14] = [
         ("events", &|seed| phase_event::parse(seed).is_ok()),
         ("scene", &|seed| Scene::from_json(&text(seed)).is_ok()),
         ("preset", &|seed| Preset::parse("seed.json", &text(seed)).is_ok()),
@@ -71,6 +80,13 @@ fn seeds_are_accepted() {
         ("predictions", &|seed| {
             let value = json::parse(seed).expect("JSON");
             predictions::goals(&value).is_ok() || predictions::forecasts(&value).is_ok()
+        }),
+        ("ratings", &|seed| ratings::ratings(&json::parse(seed).expect("JSON")).is_ok()),
+        ("jspsych", &|seed| participants(&text(seed)).is_ok()),
+        ("answers", &|seed| {
+            let value = json::parse(seed).expect("JSON");
+            let is_of = |form| Responses::read(&Field::root(&value), &forms.questions(form, 2)).is_ok();
+            Form::ALL.into_iter().any(is_of)
         }),
         ("journal", &|seed| journal::entries(&text(seed)).is_ok()),
         ("message", &|seed| FromPlayer::parse(&text(seed)).is_ok()),

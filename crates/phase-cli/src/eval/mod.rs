@@ -3,11 +3,18 @@
 pub mod options;
 
 use crate::{context::Context, error::CliError, interrupt, output::print_result};
-use options::{Common, Eval};
+use options::Eval;
+use phase_files::{json, shown, told};
 use phase_runs::{
-    eval::{Answers, Evaluated, Evaluation, REPORT_FILE, networks},
+    eval::{
+        Answers, Evaluated, Evaluation, REPORT_FILE,
+        compare::{self, MEASURES},
+        networks,
+    },
     words,
 };
+use serde_json::{Value, json};
+use std::path::Path;
 
 /// Runs the command.
 ///
@@ -21,12 +28,15 @@ pub fn run(arguments: &Eval, context: &Context) -> Result<(), CliError> {
         require_networks(context)?;
     }
     let common = arguments.common();
-    common.json.check([])?;
+    common.json.check(&common.compare)?;
+    // Before the work.
+    let others = common.compare.iter().map(|file| Ok((file.as_path(), json::read(file)?)));
+    let others: Others<'_> = others.collect::<Result<_, CliError>>()?;
     interrupt::listen();
     let evaluation = Evaluation::from(arguments);
     match arguments {
-        Eval::Goals(_) => announce(evaluation.goals(&answers, context)?, common),
-        Eval::Trajectories(_) => announce(evaluation.trajectories(&answers, context)?, common),
+        Eval::Goals(_) => announce(evaluation.goals(&answers, context)?, arguments, &others),
+        Eval::Trajectories(_) => announce(evaluation.trajectories(&answers, context)?, arguments, &others),
     }
 }
 
@@ -41,8 +51,12 @@ pub(crate) const fn require_networks(context: &Context) -> Result<(), CliError> 
     Err(CliError::NotBuilt { part: "neural networks", hint: context.program.networks_hint })
 }
 
-/// Prints the table, writes the results to the other requested places, and says where the report is.
-fn announce<A>(done: Option<Evaluated<A>>, arguments: &Common) -> Result<(), CliError> {
+/// Results of other methods, with their files.
+type Others<'a> = Vec<(&'a Path, Value)>;
+
+/// Prints the table and comparisons, writes the results to the other requested places, and says where the
+/// report is.
+fn announce<A>(done: Option<Evaluated<A>>, arguments: &Eval, others: &Others<'_>) -> Result<(), CliError> {
     let Some(done) = done else {
         return print_result(
             "this part is done; give the same command with --merge and the folders of all parts",
@@ -54,5 +68,29 @@ fn announce<A>(done: Option<Evaluated<A>>, arguments: &Common) -> Result<(), Cli
     } else {
         format!("{} holds this evaluation already", folder.display())
     };
-    arguments.json.print(&done.results, format!("{}\n{line}", done.document.first_table().trim_end()))
+    let mut text = format!("{}\n", done.document.first_table().trim_end());
+    let mut results = done.results;
+    let seed = arguments.common().seed;
+    let mut comparison = Vec::new();
+    for (file, other) in others {
+        let difference = compare::difference(arguments.task(), results.clone(), other.clone(), seed)
+            .map_err(|rule| CliError::Usage(format!("--compare: {}: {rule}", shown(file))))?;
+        text += &format!("less {}: {}\n", shown(file), sentence(arguments.task(), &difference));
+        comparison.push(json!({ "results": told(file), "difference": difference }));
+    }
+    if !comparison.is_empty() {
+        results["comparison"] = comparison.into();
+    }
+    arguments.common().json.print(&results, text + &line)
+}
+
+/// Differences with their intervals.
+fn sentence(task: &str, difference: &Value) -> String {
+    let measures = MEASURES.iter().filter(|(of, _)| *of == task).flat_map(|(_, names)| names);
+    let number = |measure: &str, part: &str| difference[measure][part].as_f64().unwrap_or(f64::NAN);
+    let one = |measure: &&str| {
+        let [value, low, high] = ["value", "low", "high"].map(|part| number(measure, part));
+        format!("{measure} {value:+.3} [{low:+.3}, {high:+.3}]")
+    };
+    measures.map(one).collect::<Vec<_>>().join(", ")
 }

@@ -80,6 +80,10 @@ pub struct Common {
     /// Random seed of the method and the intervals
     #[arg(long, value_name = "S", default_value_t = 1)]
     pub seed: u64,
+    /// Also print the differences from another method, with intervals: its results.json for the same events.
+    /// May be given several times
+    #[arg(long, value_name = "FILE", conflicts_with = "shard")]
+    pub compare: Vec<PathBuf>,
     /// The results as JSON.
     #[command(flatten)]
     pub json: JsonFile,
@@ -108,6 +112,14 @@ pub struct Parts {
 }
 
 impl Eval {
+    /// The name of the task.
+    pub(super) const fn task(&self) -> &'static str {
+        match self {
+            Self::Goals(_) => "goals",
+            Self::Trajectories(_) => "trajectories",
+        }
+    }
+
     /// The options of both tasks.
     pub(super) const fn common(&self) -> &Common {
         match self {

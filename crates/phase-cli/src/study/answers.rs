@@ -5,7 +5,7 @@ use super::{
     options::{BackupStudy, ExportStudy, ReportStudy},
 };
 use crate::{console::print_message, error::CliError};
-use phase_files::{FileError, Problem, WriteError, atomic, private, regular, told};
+use phase_files::{FileError, Problem, WriteError, atomic, incidental, private, regular, told};
 use phase_study::{
     analysis::{Analysis, document},
     config::StudyConfig,
@@ -107,7 +107,7 @@ pub(super) fn export(arguments: &ExportStudy) -> Result<(), CliError> {
     let out = &arguments.out;
     let (config, forms) = read(&arguments.config)?;
     let raters = raters(&config, &arguments.answers)?;
-    let is_empty = fs::read_dir(out).map_or(!out.exists(), |mut entries| entries.next().is_none());
+    let is_empty = incidental::is_empty(out).unwrap_or(false);
     if !is_empty {
         return Err(CliError::Usage(format!("--out: {} is not an empty folder", out.display())));
     }

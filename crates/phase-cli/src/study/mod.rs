@@ -8,6 +8,8 @@ mod check;
 mod new;
 pub mod options;
 #[cfg(feature = "serve")]
+mod ratings;
+#[cfg(feature = "serve")]
 mod videos;
 
 use crate::{context::Context, error::CliError};
@@ -25,6 +27,7 @@ pub fn run(arguments: &Study, context: &Context) -> Result<(), CliError> {
         Study::Export(options) => answers::export(options),
         Study::Report(options) => answers::report(options),
         Study::Backup(options) => answers::backup(options),
+        Study::Ratings(options) => ratings::run(options),
     }
 }
 

@@ -21,6 +21,8 @@ pub enum Study {
     Report(ReportStudy),
     /// Copy the answers of a study, at any time
     Backup(BackupStudy),
+    /// Count the relations that people named in jsPsych, as phase-ratings/1 for eval and rdm
+    Ratings(CountRatings),
 }
 
 /// Options of `study new`.
@@ -124,6 +126,24 @@ pub struct BackupStudy {
     pub answers: PathBuf,
     /// File for the copy; it must not exist
     #[arg(long, value_name = "FILE")]
+    pub out: PathBuf,
+    /// Form in which the result is printed.
+    #[command(flatten)]
+    pub output: Output,
+}
+
+/// Options of `study ratings`.
+#[derive(Args, Debug)]
+pub struct CountRatings {
+    /// Data of jsPsych with trials of the plugin phase-rating, one file a participant: JSON or CSV; or JSON
+    /// with the array of each participant in a line
+    #[arg(value_name = "FILE", required = true)]
+    pub files: Vec<PathBuf>,
+    /// Catch trials (those with `expected`) that a participant who counts may fail
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    pub catch_failures_allowed: usize,
+    /// File for the ratings
+    #[arg(long, value_name = "FILE", default_value = "ratings.json")]
     pub out: PathBuf,
     /// Form in which the result is printed.
     #[command(flatten)]

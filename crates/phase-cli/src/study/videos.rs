@@ -4,7 +4,7 @@ use super::options::NewStudy;
 use crate::{context::Context, error::CliError};
 use phase_dataset::manifest::{EventEntry, MANIFEST_FILE, Manifest};
 use phase_event::Recording;
-use phase_files::{WriteError, atomic, regular};
+use phase_files::{WriteError, atomic, incidental::is_incidental, regular};
 use phase_model::{
     Attitude, Relation, Scene,
     random::{Purpose, stream},
@@ -143,7 +143,9 @@ fn of_folder(
         file: folder.to_owned(),
         problem: phase_files::Problem::Unreadable(error),
     };
-    let mut files: Vec<PathBuf> = listed.map_err(unreadable)?.into_iter().map(|entry| entry.path()).collect();
+    let listed = listed.map_err(unreadable)?.into_iter();
+    let videos = listed.filter(|entry| !is_incidental(&entry.file_name()));
+    let mut files: Vec<PathBuf> = videos.map(|entry| entry.path()).collect();
     files.retain(|file| file.extension().is_some_and(|extension| extension == "mp4"));
     files.sort();
     let mut of = |file: &PathBuf| {

@@ -218,3 +218,39 @@ fn parts_are_merged_to_the_bytes_of_one_run() {
     );
     assert!(told.contains("part2/events/event-5.json") && told.contains("no answer"), "{told}");
 }
+
+/// The difference of two methods is that of their results; results of other events or of another task are
+/// refused by name.
+#[test]
+fn methods_are_compared_on_the_same_events() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path();
+    events_of(path);
+    let of =
+        |method| ["eval", "trajectories", "--method", method, "--events", "events.json", "--out", method];
+    succeed(path, &of("still"));
+    let compared = ["--compare", "still/results.json", "--json", "out.json"];
+    let told = succeed(path, &[&of("constant-velocity")[..], &compared].concat());
+    let [one, other] =
+        ["constant-velocity", "still"].map(|name| results(&path.join(name).join("results.json")));
+    let found = results(&path.join("out.json"));
+    for measure in ["ade", "fde"] {
+        let of = |results: &Value| results[measure]["all"].as_f64().expect("a number");
+        let difference = &found["comparison"][0]["difference"][measure];
+        let [value, low, high] =
+            ["value", "low", "high"].map(|part| difference[part].as_f64().expect("a number"));
+        assert!((value - (of(&one) - of(&other))).abs() < 1e-6, "{measure}: {value}");
+        assert!(low <= value && value <= high);
+        assert!(told.contains(&format!("{measure} {value:+.3} [")), "{told}");
+    }
+    assert!(told.contains("less still/results.json: ade"), "{told}");
+    write_events(&path.join("few.json"), &[moving("another", 30)]);
+    let few = ["eval", "trajectories", "--method", "still", "--events", "few.json", "--out", "few"];
+    let goals = ["--compare", "still/results.json", "--out", "goals"];
+    for arguments in [[&few[..], &compared[..2]].concat(), [&GOALS[..], &goals].concat()] {
+        let output = run(path, &arguments);
+        let said = text(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{said}");
+        assert!(said.contains("--compare: still/results.json: "), "{said}");
+    }
+}

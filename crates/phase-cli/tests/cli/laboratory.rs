@@ -2,7 +2,7 @@
 
 use crate::support::{refuse, succeed, tree};
 use serde_json::Value;
-use std::{collections::BTreeSet, fs, path::Path};
+use std::{collections::BTreeSet, fs, path::Path, process::Command};
 
 /// Six events of 12 steps with videos.
 fn dataset(path: &Path) {
@@ -20,6 +20,43 @@ fn json(path: &Path) -> Value {
 fn table(path: &Path, separator: char) -> Vec<Vec<String>> {
     let text = fs::read_to_string(path).expect("a table");
     text.lines().map(|line| line.split(separator).map(str::to_owned).collect()).collect()
+}
+
+/// BIDS's own validator finds nothing wrong with tables whose videos are in `stimuli/`.
+fn valid_bids(folder: &Path) {
+    let events = folder.parent().expect("a folder").join("bids");
+    fs::create_dir_all(events.join("stimuli")).expect("a folder");
+    for file in fs::read_dir(folder).expect("a folder").map(|entry| entry.expect("an entry").path()) {
+        fs::copy(&file, events.join(file.file_name().expect("a name"))).expect("copied");
+    }
+    let names = table(&events.join("desc-posterior_events.tsv"), '\t');
+    for row in &names[1..] {
+        fs::write(events.join("stimuli").join(&row[3]), "a video").expect("written");
+    }
+    let arguments = ["--format", "json", "--ignoreWarnings"];
+    let Ok(output) = Command::new("bids-validator-deno").args(arguments).arg(&events).output() else {
+        eprintln!("skipped: there is no bids-validator-deno (PyPI)");
+        return;
+    };
+    let found: Value = serde_json::from_slice(&output.stdout).expect("its report");
+    assert_eq!(found["issues"]["issues"], serde_json::json!([]));
+}
+
+/// What ffprobe (FFmpeg) reads in a clip.
+fn valid_video(file: &Path, frames: usize) {
+    let shown = "stream=codec_name,codec_type,pix_fmt,avg_frame_rate,nb_read_frames";
+    let arguments = ["-v", "error", "-count_frames", "-show_entries", shown, "-of", "json"];
+    let Ok(output) = Command::new("ffprobe").args(arguments).arg(file).output() else {
+        eprintln!("skipped: there is no ffprobe");
+        return;
+    };
+    assert!(output.stderr.is_empty(), "{}", String::from_utf8_lossy(&output.stderr));
+    let found: Value = serde_json::from_slice(&output.stdout).expect("its report");
+    let wanted = serde_json::json!([{
+        "codec_name": "h264", "codec_type": "video", "pix_fmt": "yuv420p", "avg_frame_rate": "20/1",
+        "nb_read_frames": frames.to_string(),
+    }]);
+    assert_eq!(found["streams"], wanted);
 }
 
 #[test]
@@ -41,6 +78,7 @@ fn events_become_stimuli() {
     let source = first["source"].as_str().expect("an id");
     let pictures = fs::read_dir(path.join("clips").join(id)).expect("frames").count();
     assert_eq!(pictures, 40);
+    valid_video(&path.join(format!("clips/{id}.mp4")), 40);
     let event = json(&path.join(format!("data/events/{source}.json")));
     let cut = json(&path.join(format!("clips/{id}.json")));
     let whole = &event["events"][0]["trajectory"]["agents"][0];
@@ -67,6 +105,7 @@ fn events_become_stimuli() {
     assert_eq!(posterior.len(), 1 + 6 * 3);
     let sum: f64 = posterior[1][4..7].iter().map(|cell| cell.parse::<f64>().expect("a number")).sum();
     assert!((sum - 1.0).abs() < 1e-5, "{sum}");
+    valid_bids(&path.join("observed"));
     let about = json(&path.join("observed/desc-posterior_events.json"));
     assert!(posterior[0].iter().all(|name| about[name]["Description"].is_string()));
     assert_eq!(table(&path.join("observed/desc-frames_events.tsv"), '\t').len(), 1 + 6 * 60);

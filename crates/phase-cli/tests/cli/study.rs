@@ -57,6 +57,35 @@ mod built_in {
         }
     }
 
+    /// Files of two participants of jsPsych become ratings that `eval` reads; one file that is not understood
+    /// is named, and nothing is written.
+    #[test]
+    fn answers_to_jspsych_are_counted() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path();
+        write_events(&path.join("events.json"), &[recording("a")]);
+        for (file, relation, correct) in [("1.json", "friendly", true), ("2.json", "neutral", false)] {
+            let trial = |event: &str, correct: Value| {
+                json!({ "trial_type": "phase-rating", "form": "relation", "event": event, "correct": correct,
+                    "response": {"relation": relation} })
+            };
+            let trials = json!([trial("a", Value::Null), trial("catch", correct.into())]);
+            fs::write(path.join(file), trials.to_string()).expect("written");
+        }
+        let told = succeed(path, &["study", "ratings", "1.json", "2.json"]);
+        assert!(told.contains("1 events by 1 participants; 1 left out"), "{told}");
+        succeed(path, &["study", "ratings", "1.json", "2.json", "--catch-failures-allowed", "1"]);
+        let eval = ["eval", "goals", "--method", "chance", "--events", "events.json"];
+        succeed(path, &[&eval[..], &["--ratings", "ratings.json", "--out", "out"]].concat());
+
+        fs::write(path.join("3.json"), "[]").expect("written");
+        for files in [&["1.json", "3.json"][..], &["2.json"], &["none.json"]] {
+            let told = refuse(path, &[&["study", "ratings"], files, &["--out", "new.json"]].concat());
+            assert!(told.contains(files[files.len() - 1]) || told.contains("--catch-failures"), "{told}");
+            assert!(!path.join("new.json").exists());
+        }
+    }
+
     #[test]
     fn from_a_dataset_to_figures() {
         let folder = tempfile::tempdir().expect("a folder");

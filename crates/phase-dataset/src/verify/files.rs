@@ -6,6 +6,7 @@ use phase_event::EventReadError;
 use phase_files::{
     FileError, Problem,
     checksum::{FileEntry, sha256_hex},
+    incidental::is_incidental_below,
     json, regular,
 };
 use std::{
@@ -72,14 +73,16 @@ pub(super) fn listed<'a>(
 
 /// Everything wrong with the things in a folder: files that the manifest does not name, folders without files
 /// that it names, links, and what is neither a file nor a folder. The paths of named files that are links or
-/// no files are added to `broken`: nothing outside is looked at, and nothing is waited for.
+/// no files are added to `broken`: nothing outside is looked at, and nothing is waited for. `noted` is told
+/// of what systems and tools leave.
 pub(super) fn foreign<'a>(
     folder: &Path,
     files: &BTreeMap<&'a str, &FileEntry>,
     broken: &mut BTreeSet<&'a str>,
     problems: &mut Vec<FileError>,
+    noted: &mut dyn FnMut(&Path),
 ) {
-    Walk { root: folder, files, broken, problems }.folder(folder);
+    Walk { root: folder, files, broken, problems, noted }.folder(folder);
 }
 
 struct Walk<'a, 'b> {
@@ -87,6 +90,7 @@ struct Walk<'a, 'b> {
     files: &'b BTreeMap<&'a str, &'b FileEntry>,
     broken: &'b mut BTreeSet<&'a str>,
     problems: &'b mut Vec<FileError>,
+    noted: &'b mut dyn FnMut(&Path),
 }
 
 impl Walk<'_, '_> {
@@ -109,6 +113,7 @@ impl Walk<'_, '_> {
         entries.sort_by(|a, b| a.0.cmp(&b.0));
         for (path, kind) in entries {
             match kind {
+                Ok(kind) if self.is_incidental(&path, kind) => (self.noted)(&path),
                 Ok(kind) if kind.is_dir() && self.files.contains_key(self.name(&path).as_str()) => {
                     self.special(&path, false);
                 }
@@ -121,18 +126,24 @@ impl Walk<'_, '_> {
         }
     }
 
+    /// Whether a system or tool left this file, or this folder, which is not looked into.
+    fn is_incidental(&self, path: &Path, kind: fs::FileType) -> bool {
+        let name = self.name(path);
+        let known = (kind.is_file() || kind.is_dir()) && is_incidental_below(&name, kind.is_dir());
+        known && !self.files.contains_key(name.as_str()) && !self.is_needed(path)
+    }
+
     /// Whether the manifest names something in a folder.
     fn is_needed(&self, folder: &Path) -> bool {
         let begin = format!("{}/", self.name(folder));
         self.files.range(begin.as_str()..).next().is_some_and(|(path, _)| path.starts_with(&begin))
     }
 
-    /// Reports every file in a folder that should not be there, or the folder itself if there is none.
+    /// Reports everything in a folder that should not be there, or the folder itself if it is empty.
     fn empty(&mut self, folder: &Path) {
-        let before = self.problems.len();
-        self.folder(folder);
-        if self.problems.len() == before {
-            self.fail(folder, DatasetProblem::Extra.into());
+        match fs::read_dir(folder).map(|mut entries| entries.next().is_none()) {
+            Ok(true) => self.fail(folder, DatasetProblem::Extra.into()),
+            _ => self.folder(folder),
         }
     }
 

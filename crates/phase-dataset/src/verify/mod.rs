@@ -29,21 +29,23 @@ use std::{
 pub type Check<'a> = dyn Fn(usize) -> Option<FileError> + Sync + 'a;
 
 /// Everything that is wrong with a finished dataset, one error for each problem: files that are missing,
-/// changed or extra, links, special files, a manifest or events that are not in the form in which they are
-/// written, videos that are cut or of another length than their events, and event files, Parquet files and
-/// descriptions that contradict the manifest. The contents of a damaged file are not checked. Files are read
-/// one after the other; besides the manifest and its text, one group of events is in memory.
+/// changed or extra (but not those that systems and tools leave), links, special files, a manifest or events
+/// that are not in the form in which they are written, videos that are cut or of another length than their
+/// events, and event files, Parquet files and descriptions that contradict the manifest. The contents of a
+/// damaged file are not checked. Files are read one after the other; besides the manifest and its text, one
+/// group of events is in memory.
 #[must_use]
 pub fn verify(folder: &Path, manifest: &Manifest) -> Vec<FileError> {
     let in_order =
         |count: usize, check: &Check<'_>| Ok::<_, Infallible>((0..count).map(check).collect::<Vec<_>>());
-    let Ok(problems) = verify_with(folder, manifest, &|_| {}, in_order);
+    let Ok(problems) = verify_with(folder, manifest, &|_| {}, &mut |_| {}, in_order);
     problems
 }
 
 /// As [`verify`], with an executor: `run` performs the given number of checks, numbered from 0, in any order
 /// and on any threads, and returns the results by number. `done` receives the share of [`work`] of each
-/// check.
+/// check, `noted` each path that is no damage, because systems and tools leave such things
+/// ([`phase_files::incidental`]).
 ///
 /// # Errors
 /// Those of `run`.
@@ -51,6 +53,7 @@ pub fn verify_with<E>(
     folder: &Path,
     manifest: &Manifest,
     done: &(dyn Fn(usize) + Sync),
+    noted: &mut dyn FnMut(&Path),
     run: impl Fn(usize, &Check<'_>) -> Result<Vec<Option<FileError>>, E>,
 ) -> Result<Vec<FileError>, E> {
     let mut problems = Vec::new();
@@ -59,7 +62,7 @@ pub fn verify_with<E>(
     problems.extend(events::names(folder, manifest));
     let mut broken: BTreeSet<&str> = BTreeSet::new();
     let mut foreign = Vec::new();
-    files::foreign(folder, &files, &mut broken, &mut foreign);
+    files::foreign(folder, &files, &mut broken, &mut foreign, noted);
     let entries: Vec<&FileEntry> = files.values().copied().collect();
     let answers = run(entries.len(), &|k| {
         let is_file = !broken.contains(entries[k].path.as_str());

@@ -16,7 +16,7 @@ use std::{
 const DATA: &str = "data/train-00000-of-00001.parquet";
 
 /// A whole dataset of three events.
-fn dataset(folder: &Path) -> Manifest {
+pub(crate) fn dataset(folder: &Path) -> Manifest {
     let mut manifest = crate::manifest::dataset(folder, "made-up-0");
     manifest.events = crate::parquet::events(folder, &[2, 3, 1]);
     manifest.files = crate::parquet::export(folder, &manifest.events).expect("written");
@@ -40,7 +40,7 @@ fn sentences(folder: &Path, manifest: &Manifest) -> Vec<String> {
     found(folder, manifest)
 }
 
-fn found(folder: &Path, manifest: &Manifest) -> Vec<String> {
+pub(crate) fn found(folder: &Path, manifest: &Manifest) -> Vec<String> {
     let problems = verify(folder, manifest);
     problems
         .iter()
@@ -206,13 +206,17 @@ fn the_order_of_checks_does_not_matter() {
         &|steps| {
             told.fetch_add(steps, Relaxed);
         },
+        &mut |_| {},
         backwards,
     );
     let found: Vec<String> = found.expect("checked").iter().map(ToString::to_string).collect();
     assert_eq!(found, expected);
     assert!(told.into_inner() <= work(&manifest));
     let failing = |_: usize, _: &Check<'_>| Err("no threads");
-    assert_eq!(verify_with(path, &manifest, &|_| {}, failing).expect_err("passed on"), "no threads");
+    assert_eq!(
+        verify_with(path, &manifest, &|_| {}, &mut |_| {}, failing).expect_err("passed on"),
+        "no threads"
+    );
 }
 
 #[test]

@@ -3,6 +3,8 @@
 mod effect;
 mod presence;
 mod telling;
+#[cfg(test)]
+mod tests;
 
 pub use effect::{Effect, RoomError};
 

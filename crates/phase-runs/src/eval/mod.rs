@@ -5,6 +5,7 @@
 //! tasks, `answers` has also those of an external method.
 
 pub(crate) mod answers;
+pub mod compare;
 pub(crate) mod goals;
 pub(crate) mod input;
 pub mod methods;

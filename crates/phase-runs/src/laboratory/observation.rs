@@ -28,8 +28,10 @@ use std::{
     sync::Arc,
 };
 
-/// Written last.
-const SUMMARY_FILE: &str = "observation.json";
+/// Written last: the tables are a derivative dataset of BIDS, which has such a file.
+const SUMMARY_FILE: &str = "dataset_description.json";
+/// The version of BIDS.
+const BIDS_VERSION: &str = "1.10.0";
 /// The value of its field `format`.
 const SUMMARY_FORMAT: &str = "phase-observation/1";
 
@@ -155,7 +157,13 @@ impl Observation {
         let courses: Vec<Course> = courses.ok_or_else(|| RunError::Interrupted(self.out.clone()))?;
         let files = self.write(&courses, presentations.as_deref())?;
         let chunks = courses.iter().map(|course| course.chunks.len()).sum();
-        let summary = json!({ "format": SUMMARY_FORMAT, "run": run, "files": files, "chunks": chunks });
+        let summary = json!({
+            "Name": "Social events as PHASE observes them",
+            "BIDSVersion": BIDS_VERSION,
+            "DatasetType": "derivative",
+            "GeneratedBy": [{ "Name": "phase", "Version": env!("CARGO_PKG_VERSION") }],
+            "format": SUMMARY_FORMAT, "run": run, "files": files, "chunks": chunks,
+        });
         atomic::write_json(&self.out.join(SUMMARY_FILE), &summary)?;
         folder.finish()?;
         Ok(Observed { files, chunks, is_new: true })

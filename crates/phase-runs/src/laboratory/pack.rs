@@ -3,7 +3,7 @@
 use super::{CLIPS_FILE, create, tables::unusable};
 use crate::{error::RunError, listener::Listener};
 use phase_dataset::manifest::{MANIFEST_FILE, Manifest};
-use phase_files::{atomic, regular};
+use phase_files::{atomic, incidental, regular};
 use phase_laboratory::{
     counterbalance::{Stimulus, lists},
     platform::{Platform, Question, Trial, files},
@@ -68,7 +68,7 @@ impl Pack {
     /// If videos are missing, the folder is not empty or cannot be written, or the lists cannot be
     /// counterbalanced.
     pub fn run(&self, listener: &dyn Listener) -> Result<Packed, RunError> {
-        if std::fs::read_dir(&self.out).is_ok_and(|mut entries| entries.next().is_some()) {
+        if incidental::is_empty(&self.out).is_ok_and(|is_empty| !is_empty) {
             return Err(unusable(&self.out, "is not empty; choose a new folder"));
         }
         let items = self.items()?;

@@ -18,6 +18,7 @@ use phase_files::{
     FileError, Problem,
     checksum::FileEntry,
     folder::{self, Contents, FolderError},
+    shown,
 };
 use phase_model::random::{self, Purpose};
 use phase_sim::SimulationSettings;
@@ -96,7 +97,8 @@ pub fn problems(
         // There is always a result: interruptions are not handled here, and nothing is written.
         Ok::<_, RunError>(answers.unwrap_or_default())
     };
-    let mut problems = verify_with(folder, manifest, &|steps| progress.steps(steps), run)?;
+    let mut noted = |path: &Path| listener.note(&format!("note: {}: is no part of the dataset", shown(path)));
+    let mut problems = verify_with(folder, manifest, &|steps| progress.steps(steps), &mut noted, run)?;
     drop(progress);
     // Those of the events are the same but for lengths, which the check of an event compares with its rows.
     if let Err(error) = SimulationSettings::read(&manifest.settings, "settings") {

@@ -105,24 +105,48 @@ pub(super) fn confusion(judgements: &Judgements<'_>, form: Form, forms: &Forms) 
         Form::Interactions => (INTERACTIONS, condition),
         Form::Goals | Form::Relation => (RELATION, |stimulus| stimulus.labels.relation.as_deref()),
     };
-    let choices = choices(forms, form, question);
-    let mut groups = BTreeMap::<&str, Vec<&Judged<'_>>>::new();
-    for judged in &judgements.0 {
-        if let Some(label) = label(judged.stimulus) {
-            groups.entry(label).or_default().push(judged);
+    let labelled = judgements.0.iter().filter_map(|it| Some((label(it.stimulus)?.to_owned(), it, question)));
+    confusion_of(question, choices(forms, form, question), labelled)
+}
+
+/// Counts of the answers that agents of each goal get.
+pub(super) fn goal_confusion(judgements: &Judgements<'_>, form: Form, forms: &Forms) -> Option<Confusion> {
+    if form != Form::Goals {
+        return None;
+    }
+    let of_agent = |question: &'static str, agent: usize| {
+        judgements.0.iter().filter_map(move |judged| {
+            let right: Vec<&str> =
+                judged.stimulus.labels.goals.as_ref()?[agent].iter().map(String::as_str).collect();
+            Some((right.join(" or "), judged, question))
+        })
+    };
+    let labelled = GOALS.iter().zip(0..).flat_map(|(question, agent)| of_agent(question, agent));
+    confusion_of("goals", choices(forms, form, GOALS[0]), labelled)
+}
+
+/// Counts of the choices by label, from videos, each with its label and a question about it.
+fn confusion_of<'a>(
+    name: &'static str,
+    choices: Vec<String>,
+    labelled: impl Iterator<Item = (String, &'a Judged<'a>, &'static str)>,
+) -> Option<Confusion> {
+    let mut groups = BTreeMap::<String, (usize, Vec<usize>)>::new();
+    for (label, judged, question) in labelled {
+        let (judgements, sums) = groups.entry(label).or_insert_with(|| (0, vec![0; choices.len()]));
+        *judgements += judged.answers.len();
+        for (sum, count) in sums.iter_mut().zip(counts(core::iter::once(judged), question, &choices)) {
+            *sum += count;
         }
     }
     // Labels that are answers come in the order of the form.
-    let mut labels: Vec<&str> = groups.keys().copied().collect();
-    labels.sort_by_key(|label| choices.iter().position(|choice| choice == label));
-    let rows = labels.iter().map(|label| counts(groups[label].iter().copied(), question, &choices));
-    let counts = rows.collect();
-    let judgements = labels.iter().map(|label| groups[label].iter().map(|it| it.answers.len()).sum());
-    (!labels.is_empty()).then(|| Confusion {
-        question,
-        judgements: judgements.collect(),
-        labels: labels.iter().map(|&label| label.into()).collect(),
-        counts,
+    let mut groups: Vec<(String, (usize, Vec<usize>))> = groups.into_iter().collect();
+    groups.sort_by_key(|(label, _)| choices.iter().position(|choice| choice == label));
+    (!groups.is_empty()).then(|| Confusion {
+        question: name,
+        judgements: groups.iter().map(|(_, (judgements, _))| *judgements).collect(),
+        counts: groups.iter().map(|(_, (_, counts))| counts.clone()).collect(),
+        labels: groups.into_iter().map(|(label, _)| label).collect(),
         answers: choices,
     })
 }

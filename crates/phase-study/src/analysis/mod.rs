@@ -17,7 +17,7 @@ use crate::{
     forms::{Form, Forms},
     record::{Rater, Standing},
 };
-use groups::{by_condition, by_set, by_video, confusion};
+use groups::{by_condition, by_set, by_video, confusion, goal_confusion};
 use judgements::Judgements;
 use phase_eval::Estimate;
 use serde::Serialize;
@@ -171,7 +171,8 @@ pub struct Answers {
 /// Counts of the answers that videos of each label get.
 #[derive(Clone, PartialEq, Debug, Serialize)]
 pub struct Confusion {
-    /// The question: `relation`, or `interactions`, whose labels are the conditions.
+    /// The question: `relation`; `goals`, those of both agents; or `interactions`, whose labels are the
+    /// conditions.
     pub question: &'static str,
     /// The labels, one for each row.
     pub labels: Vec<String>,
@@ -202,6 +203,9 @@ pub struct Analysis {
     pub accuracy: Vec<Accuracy>,
     /// Counts of the answers that videos of each label get; `None` without labels.
     pub confusion: Option<Confusion>,
+    /// Counts of the answers that agents of each goal get; `None` without labels, or if the form does not
+    /// ask for goals. Several right answers are one label, `a or b`.
+    pub goal_confusion: Option<Confusion>,
     /// The answers by condition; where a video has none, its kind of event stands for it.
     pub conditions: Vec<Answers>,
     /// The answers by set.
@@ -239,6 +243,7 @@ impl Analysis {
             agreement: measures::agreement(&judgements, config, forms),
             accuracy: measures::accuracy(&judgements, &sources, config.form, config.seed),
             confusion: confusion(&judgements, config.form, forms),
+            goal_confusion: goal_confusion(&judgements, config.form, forms),
             conditions: by_condition(&judgements, config.form, forms, config.seed),
             sets: by_set(&judgements, config.form, forms, config.seed),
             videos: by_video(&judgements, config.form, forms, config.seed),

@@ -37,7 +37,7 @@ pub fn document(title: &str, analysis: &Analysis) -> Document {
     if !analysis.accuracy.is_empty() {
         blocks.extend(accuracy(&analysis.accuracy));
     }
-    blocks.extend(analysis.confusion.iter().flat_map(confusion));
+    blocks.extend(analysis.confusion.iter().chain(&analysis.goal_confusion).flat_map(confusion));
     blocks.extend(by_condition(&analysis.conditions));
     if !analysis.human_likeness.is_empty() {
         blocks.extend(likeness(analysis));
@@ -85,18 +85,24 @@ fn confusion(confusion: &Confusion) -> Vec<Block> {
         counts.iter().map(|&count| count as f64 / judgements.max(1) as f64).collect()
     });
     let shares: Vec<Vec<f64>> = shares.collect();
-    let (title, text) = if confusion.question == "relation" {
-        (
+    let (title, text, file) = match confusion.question {
+        "relation" => (
             "Answers by label",
             "Each row has the judgements of videos with one label; right answers are in the column of the same name.",
-        )
-    } else {
-        (
+            "confusion.svg",
+        ),
+        "goals" => (
+            "Answers by goal",
+            "Each row has the judgements of agents with one goal, whose right answers it names.",
+            "confusion-goals.svg",
+        ),
+        _ => (
             "Answers by condition",
             "Each row has one condition, and how many of its judgements name each type of interaction.",
-        )
+            "confusion.svg",
+        ),
     };
-    // The many types of interaction fit in a picture, not in the columns of a table.
+    // Many answers fit in a picture, not in the columns of a table.
     let mut blocks = vec![Block::Heading(title.into()), Block::Text(text.into())];
     if confusion.question == "relation" {
         let mut head = vec!["label".to_owned()];
@@ -112,7 +118,7 @@ fn confusion(confusion: &Confusion) -> Vec<Block> {
     }
     let title = "Share of the judgements of each row (%)";
     let svg = matrix(title, &confusion.labels, &confusion.answers, &shares);
-    blocks.push(Block::Plot { file: "confusion.svg", title: title.into(), svg });
+    blocks.push(Block::Plot { file, title: title.into(), svg });
     blocks
 }
 

@@ -5,7 +5,10 @@
 //! the address with which they came are only exported on demand.
 
 mod csv;
+mod jspsych;
 mod tables;
+
+pub use jspsych::{JsPsychError, Participant, participants, ratings_of};
 
 use crate::{
     config::StudyConfig,
@@ -16,6 +19,13 @@ use csv::Table;
 use phase_eval::ratings::{RATINGS_FORMAT, RatingCounts};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
+
+/// By relation, the count of one rater who names it.
+const RELATIONS: [(&str, RatingCounts); 3] = [
+    ("friendly", RatingCounts { friendly: 1, adversarial: 0, neutral: 0 }),
+    ("adversarial", RatingCounts { friendly: 0, adversarial: 1, neutral: 0 }),
+    ("neutral", RatingCounts { friendly: 0, adversarial: 0, neutral: 1 }),
+];
 
 /// A file of an export.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -99,15 +109,15 @@ pub fn ratings(config: &StudyConfig, raters: &[Rater]) -> Option<Value> {
     for rater in raters.iter().filter(|rater| rater.standing(config) == Standing::Complete) {
         for trial in rater.trials.iter().filter(|trial| !trial.catch) {
             let answer = trial.given.as_ref().and_then(|given| given.answer.get(RELATION)?.text());
-            let of = counts.entry(&trial.shown).or_default();
-            match answer {
-                Some("friendly") => of.friendly += 1,
-                Some("neutral") => of.neutral += 1,
-                Some("adversarial") => of.adversarial += 1,
-                _ => {}
+            if let Some((_, one)) = RELATIONS.iter().find(|(name, _)| Some(*name) == answer) {
+                *counts.entry(&trial.shown).or_default() += *one;
             }
         }
     }
-    counts.retain(|_, of| of.raters() > 0);
-    Some(json!({"format": RATINGS_FORMAT, "ratings": counts}))
+    Some(document_of(&counts))
+}
+
+/// Counts by event as `phase-ratings/1`.
+fn document_of(counts: &BTreeMap<&str, RatingCounts>) -> Value {
+    json!({"format": RATINGS_FORMAT, "ratings": counts})
 }

@@ -96,6 +96,18 @@ fn right_goals_right_relations_and_human_likeness_are_counted() {
     assert_eq!(confusion.answers, ["friendly", "neutral", "adversarial"]);
     assert_eq!(confusion.counts, [[7, 5, 0], [0, 4, 0]]);
     assert_eq!(confusion.judgements, [12, 4]);
+    // Both agents of 4 videos and 4 raters: agent 0 is called by both of its right names.
+    let goals = analysis.goal_confusion.as_ref().expect("labels");
+    assert_eq!(goals.judgements.iter().sum::<usize>(), 32);
+    let counted = |label: &str, answer: &str| {
+        let row = goals.labels.iter().position(|it| it == label).expect(label);
+        goals.counts[row][goals.answers.iter().position(|it| it == answer).expect(answer)]
+    };
+    assert_eq!(
+        [("help or touch", "help"), ("help or touch", "touch"), ("none", "none"), ("none", "hinder")]
+            .map(|(label, answer)| counted(label, answer)),
+        [4, 12, 11, 5]
+    );
     let right = |groups: &[phase_study::analysis::Answers], name: &str| {
         let found = groups.iter().find(|it| it.name == name).expect(name);
         (found.videos, found.judgements, found.relation_right.expect("labels").value)

@@ -5,6 +5,7 @@ mod assignment;
 mod config;
 mod design;
 mod export;
+mod jspsych;
 mod session;
 mod store;
 mod support;

@@ -2,15 +2,28 @@
 
 use phase_calibration::{Probe, Run};
 use phase_dataset::preset::Preset;
-use phase_eval::predictions;
+use phase_eval::{predictions, ratings};
 use phase_event::{from_json, to_json};
 use phase_game::{FromPlayer, journal};
-use phase_model::{Scene, json, path::RelativePath};
+use phase_model::{
+    Scene,
+    json::{self, Field},
+    path::RelativePath,
+};
 use phase_sim::SimulationSettings;
 use phase_simple::{IntentNetwork, ReportModel, StrengthRegressor};
-use phase_study::{config::StudyConfig, forms::Forms};
+use phase_study::{
+    config::StudyConfig,
+    export::{participants, ratings_of},
+    forms::{Form, Forms},
+    question::Responses,
+};
 use phase_tensors::TensorFile;
-use std::path::Path;
+use serde_json::json;
+use std::{path::Path, sync::LazyLock};
+
+/// The forms that come with the program.
+static FORMS: LazyLock<Forms> = LazyLock::new(|| Forms::included().expect("they can be read"));
 
 /// Events: what is accepted is written, and read again the same.
 pub(super) fn events(data: &[u8]) {
@@ -68,6 +81,32 @@ pub(super) fn predictions(data: &[u8]) {
     }
 }
 
+/// Ratings by people: what is accepted is written, and read again the same.
+pub(super) fn ratings(data: &[u8]) {
+    let Ok(value) = json::parse(data) else { return };
+    let Ok(counts) = ratings::ratings(&value) else { return };
+    let again = json!({ "format": ratings::RATINGS_FORMAT, "ratings": counts });
+    assert_eq!(ratings::ratings(&again).expect("what is written can be read"), counts);
+}
+
+/// Data of jsPsych: what is accepted becomes ratings that can be read.
+pub(super) fn jspsych(data: &[u8]) {
+    let Ok(text) = core::str::from_utf8(data) else { return };
+    let Ok(people) = participants(text) else { return };
+    ratings::ratings(&ratings_of(&people, usize::MAX)).expect("what is written can be read");
+}
+
+/// Answers of raters' pages to each form: what is accepted is written, and read again the same.
+pub(super) fn answers(data: &[u8]) {
+    let Ok(value) = json::parse(data) else { return };
+    for form in Form::ALL {
+        let questions = FORMS.questions(form, 2);
+        let Ok(answer) = Responses::read(&Field::root(&value), &questions) else { continue };
+        let again = Responses::read(&Field::root(&answer.to_json()), &questions);
+        assert_eq!(again.expect("what is written can be read"), answer);
+    }
+}
+
 /// Journals of games: what is read can be resumed or is refused.
 pub(super) fn journal(data: &[u8]) {
     let Ok(text) = core::str::from_utf8(data) else { return };
@@ -87,8 +126,7 @@ pub(super) fn message(data: &[u8]) {
 
 /// Configurations of studies.
 pub(super) fn study(data: &[u8]) {
-    let forms = Forms::read(phase_data::FORMS).expect("the forms that come with the program");
-    let _ = StudyConfig::read(data, &forms);
+    let _ = StudyConfig::read(data, &FORMS);
 }
 
 /// Forms of studies.
