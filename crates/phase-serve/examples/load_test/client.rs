@@ -11,7 +11,6 @@ use phase_model::{
 use rand::RngExt as _;
 use serde_json::{Value, json};
 use std::{
-    error::Error,
     net::SocketAddr,
     sync::{
         Arc,
@@ -30,11 +29,18 @@ const CHANGE: f64 = 0.75;
 /// Duration of a step (s).
 const STEP: f64 = 0.25;
 
+/// Why a player cannot play.
+pub(crate) type Failure = Box<dyn core::error::Error + Send + Sync>;
+
+/// A step of a player: the minutes since the start, and how late it was (ms).
+pub(crate) type Late = (u16, f32);
+
 /// What all players share.
 pub(crate) struct Shared {
     scenes: Vec<Item>,
     parameters: MindParameters,
     minds: bool,
+    begun: Instant,
     playing: AtomicUsize,
     measuring: AtomicBool,
     over: AtomicBool,
@@ -44,12 +50,17 @@ impl Shared {
     pub(crate) fn new(scenes: Vec<Item>, parameters: MindParameters, minds: bool) -> Self {
         let (playing, measuring, over) =
             (AtomicUsize::new(0), AtomicBool::new(false), AtomicBool::new(false));
-        Self { scenes, parameters, minds, playing, measuring, over }
+        Self { scenes, parameters, minds, begun: Instant::now(), playing, measuring, over }
     }
 
     /// Players that have left the practice.
     pub(crate) fn playing(&self) -> usize {
         self.playing.load(Ordering::Relaxed)
+    }
+
+    /// Whether all is measured.
+    fn is_over(&self) -> bool {
+        self.over.load(Ordering::Relaxed)
     }
 
     /// Begins or ends what is measured.
@@ -64,7 +75,7 @@ pub(crate) async fn open_room(
     address: SocketAddr,
     admin: &str,
     partner: &str,
-) -> Result<Vec<String>, Box<dyn Error>> {
+) -> Result<Vec<String>, Failure> {
     let body = json!({ "partner": partner }).to_string();
     let request = format!(
         "POST /api/rooms HTTP/1.1\r\nHost: {address}\r\nAuthorization: Bearer {admin}\r\nContent-Length: {}\r\n\
@@ -81,8 +92,31 @@ pub(crate) async fn open_room(
     Ok(tokens.iter().filter_map(|token| token.as_str().map(Into::into)).collect())
 }
 
+/// Plays one game after the other in rooms of its own until all is measured; how late steps were. Seeds are
+/// those of its first players.
+pub(crate) async fn play_on(
+    address: SocketAddr,
+    admin: String,
+    partner: &'static str,
+    seed: u64,
+    shared: Arc<Shared>,
+) -> Result<Vec<Late>, Failure> {
+    let mut lateness = Vec::new();
+    while !shared.is_over() {
+        let mut players = Vec::new();
+        for (token, seed) in open_room(address, &admin, partner).await?.into_iter().zip(seed..) {
+            let client = Client::join(address, token, seed, Arc::clone(&shared)).await?;
+            players.push(tokio::spawn(client.play()));
+        }
+        for player in players {
+            lateness.extend(player.await?);
+        }
+    }
+    Ok(lateness)
+}
+
 /// A player and its socket.
-pub(crate) struct Client {
+struct Client {
     socket: WebSocketStream<TcpStream>,
     random: Pcg64Mcg,
     shared: Arc<Shared>,
@@ -92,16 +126,16 @@ pub(crate) struct Client {
     player: Option<Player>,
     /// Arrivals of the steps of the round: number and time (s).
     arrivals: Vec<(u64, f64)>,
-    lateness: Vec<f64>,
+    lateness: Vec<Late>,
 }
 
 impl Client {
-    pub(crate) async fn join(
+    async fn join(
         address: SocketAddr,
         token: String,
         seed: u64,
         shared: Arc<Shared>,
-    ) -> Result<Self, Box<dyn Error>> {
+    ) -> Result<Self, Failure> {
         let stream = TcpStream::connect(address).await?;
         stream.set_nodelay(true)?;
         let (mut socket, _) = client_async(format!("ws://{address}/play/socket"), stream).await?;
@@ -121,17 +155,16 @@ impl Client {
         })
     }
 
-    /// Plays until all is measured; how late steps were (ms).
-    pub(crate) async fn play(mut self) -> Vec<f64> {
-        let begun = Instant::now();
-        while !self.shared.over.load(Ordering::Relaxed) {
+    /// Plays until its game is over or all is measured; how late steps were.
+    async fn play(mut self) -> Vec<Late> {
+        while !self.shared.is_over() {
             let message = tokio::time::timeout(Duration::from_secs(1), self.socket.next()).await;
             let text = match message {
                 Ok(Some(Ok(Message::Text(text)))) => text,
                 Ok(Some(Ok(_))) | Err(_) => continue,
                 Ok(Some(Err(_)) | None) => break,
             };
-            let now = begun.elapsed().as_secs_f64();
+            let now = self.shared.begun.elapsed().as_secs_f64();
             let Ok(message) = serde_json::from_str::<Value>(&text) else { continue };
             for answer in self.answer(&message, now) {
                 if self.socket.send(Message::text(answer.to_string())).await.is_err() {
@@ -201,7 +234,9 @@ impl Client {
     fn settle(&mut self) {
         let offset = |&(step, at): &(u64, f64)| at - step as f64 * STEP;
         let earliest = self.arrivals.iter().map(offset).fold(f64::INFINITY, f64::min);
-        self.lateness.extend(self.arrivals.iter().map(|arrival| (offset(arrival) - earliest) * 1e3));
+        let late =
+            |arrival: &(u64, f64)| ((arrival.1 / 60.0) as u16, ((offset(arrival) - earliest) * 1e3) as f32);
+        self.lateness.extend(self.arrivals.iter().map(late));
         self.arrivals.clear();
     }
 }

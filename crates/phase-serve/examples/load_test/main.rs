@@ -8,11 +8,12 @@
 //! cargo run --release --package phase-serve --example load_test -- --rooms 200 --misbehaving 50
 //! ```
 //!
-//! Players press keys at random, or are minds that see what the server tells their agents. Printed as JSON:
+//! Players press keys at random, or are minds that see what the server tells their agents. When a game is
+//! over, its players play another. Printed as JSON:
 //! how late steps arrived, in milliseconds after the time at which they were due. A room's schedule begins
 //! with the step that came earliest relative to its number, so lateness includes the server, the sockets and
-//! the players' own waiting for a processor. Also the resident memory of the server each ten seconds, and the
-//! processor time that it took meanwhile.
+//! the players' own waiting for a processor. The 99th percentile is there for each minute, too, and the
+//! resident memory of the server each ten seconds, with the processor time that it took meanwhile.
 //!
 //! The server, the players and the clients that do not behave are a process each. The last have the lowest
 //! priority, for elsewhere they would not share a processor with the server.
@@ -22,14 +23,13 @@ mod mind;
 mod misbehaving;
 
 use clap::{Parser, ValueEnum, value_parser};
-use client::{Client, Shared};
+use client::{Failure, Late, Shared, play_on};
 use phase_game::{GameSettings, playlist::Item};
 use phase_model::EventKind;
 use phase_sampler::sample_named;
 use phase_serve::{Server, ServerSettings};
 use serde_json::json;
 use std::{
-    error::Error,
     io::{BufRead as _, BufReader, Read as _},
     net::SocketAddr,
     path::Path,
@@ -99,7 +99,7 @@ impl Part {
     }
 
     /// The first line that it prints.
-    fn line(&mut self) -> Result<String, Box<dyn Error>> {
+    fn line(&mut self) -> Result<String, Failure> {
         let mut line = String::new();
         BufReader::new(self.0.stdout.take().ok_or("it prints once")?).read_line(&mut line)?;
         Ok(line)
@@ -118,7 +118,7 @@ fn asked_to_end() {
     let _ = std::io::stdin().read_to_end(&mut Vec::new());
 }
 
-fn main() -> Result<(), Box<dyn Error>> {
+fn main() -> Result<(), Failure> {
     let options = Options::parse();
     let mut scenes = Vec::new();
     for (seed, kind) in (0..).zip(EventKind::ALL) {
@@ -155,7 +155,7 @@ fn main() -> Result<(), Box<dyn Error>> {
 }
 
 /// Is the server, and prints its address and the token of the person in charge.
-fn serve(options: &Options, scenes: Vec<Item>, game: GameSettings) -> Result<(), Box<dyn Error>> {
+fn serve(options: &Options, scenes: Vec<Item>, game: GameSettings) -> Result<(), Failure> {
     let folder = tempfile::tempdir()?;
     let settings = ServerSettings {
         listen: ([127, 0, 0, 1], 0).into(),
@@ -186,8 +186,8 @@ fn serve(options: &Options, scenes: Vec<Item>, game: GameSettings) -> Result<(),
 
 /// Measurements of a run.
 struct Measured {
-    /// Lateness of each step of each player (ms).
-    lateness: Vec<f64>,
+    /// Lateness of each step of each player.
+    lateness: Vec<Late>,
     /// The memory of the server over time (MiB).
     memory: Vec<u64>,
     /// The share of one processor that the server took.
@@ -202,23 +202,25 @@ async fn play(
     shared: &Arc<Shared>,
     server: u32,
     crowd: impl FnOnce() -> std::io::Result<Option<Part>>,
-) -> Result<Measured, Box<dyn Error>> {
-    let mut clients = Vec::new();
-    for _ in 0..options.rooms {
+) -> Result<Measured, Failure> {
+    let (partner, players) = match options.partner {
+        Partner::Mind => ("mind", 1),
+        Partner::Human => ("human", 2),
+    };
+    let mut rooms = Vec::new();
+    for room in 0..options.rooms {
         // As fast as the server lets one address ask.
         tokio::time::sleep(Duration::from_millis(20)).await;
-        let partner = if options.partner == Partner::Mind { "mind" } else { "human" };
-        for token in client::open_room(address, admin, partner).await? {
-            let seed = clients.len() as u64;
-            clients.push(tokio::spawn(Client::join(address, token, seed, Arc::clone(shared)).await?.play()));
-        }
+        let seed = players * u64::from(room);
+        rooms.push(tokio::spawn(play_on(address, admin.into(), partner, seed, Arc::clone(shared))));
     }
     // Until all of them have left the practice.
     let opened = Instant::now();
-    while shared.playing() < clients.len() && opened.elapsed() < Duration::from_secs(120) {
+    let all = players as usize * rooms.len();
+    while shared.playing() < all && opened.elapsed() < Duration::from_secs(120) {
         tokio::time::sleep(Duration::from_millis(100)).await;
     }
-    if shared.playing() < clients.len() {
+    if shared.playing() < all {
         return Err("the games did not begin".into());
     }
     let crowd = crowd()?;
@@ -234,8 +236,8 @@ async fn play(
     shared.measure(false);
     drop(crowd);
     let mut lateness = Vec::new();
-    for client in clients {
-        lateness.extend(client.await?);
+    for room in rooms {
+        lateness.extend(room.await??);
     }
     Ok(Measured { lateness, memory, load })
 }
@@ -260,21 +262,33 @@ fn processor_time(process: u32) -> f64 {
 }
 
 fn report(options: &Options, measured: Measured) -> serde_json::Value {
-    let Measured { mut lateness, memory, load } = measured;
-    lateness.sort_by(f64::total_cmp);
-    let quantile = |share: f64| {
-        let rank = (share * lateness.len() as f64).ceil() as usize;
-        lateness.get(rank.max(1) - 1).map(|ms| (ms * 10.0).round() / 10.0)
-    };
+    let Measured { lateness, memory, load } = measured;
+    let first = lateness.iter().map(|late| late.0).min().unwrap_or_default();
+    let mut minutes = Vec::<Vec<f32>>::new();
+    for &(minute, late) in &lateness {
+        let minute = usize::from(minute - first);
+        minutes.resize_with(minutes.len().max(minute + 1), Vec::new);
+        minutes[minute].push(late);
+    }
+    let by_minute: Vec<_> = minutes.into_iter().map(|mut minute| quantile(&mut minute, 0.99)).collect();
+    let mut all: Vec<f32> = lateness.into_iter().map(|late| late.1).collect();
     json!({
         "rooms": options.rooms, "seconds": options.seconds,
         "players": format!("{:?}", options.players).to_lowercase(),
         "partner": format!("{:?}", options.partner).to_lowercase(),
         "simulations": options.simulations, "misbehaving": options.misbehaving, "server_mib": memory,
         "server_processors": (load * 100.0).round() / 100.0,
-        "steps_seen": lateness.len(),
+        "steps_seen": all.len(),
         "late_ms": {
-            "median": quantile(0.5), "p90": quantile(0.9), "p99": quantile(0.99), "worst": quantile(1.0),
+            "median": quantile(&mut all, 0.5), "p90": quantile(&mut all, 0.9),
+            "p99": quantile(&mut all, 0.99), "worst": quantile(&mut all, 1.0), "p99_by_minute": by_minute,
         },
     })
+}
+
+/// The nearest rank of some times (ms).
+fn quantile(times: &mut [f32], share: f64) -> Option<f64> {
+    let rank = (share * times.len() as f64).ceil() as usize;
+    times.sort_by(f32::total_cmp);
+    times.get(rank.max(1) - 1).map(|&ms| f64::from((ms * 10.0).round()) / 10.0)
 }
