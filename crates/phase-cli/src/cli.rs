@@ -26,6 +26,7 @@ use crate::{
     stats::{self, Stats},
     study::{self, options::Study},
     submit::{self, Submit},
+    track::{self, TrackOptions},
     train::{self, options::Train},
     verify::{self, options::Verify},
 };
@@ -55,6 +56,8 @@ pub enum Command {
     Verify(Verify),
     /// Turn events into videos, or into pictures of their key frames
     Render(Render),
+    /// Read the motion of bodies in videos, pictures or tables as events without labels
+    Track(TrackOptions),
     /// Cut clips of one length out of events, as videos, frames or GIFs, with their labels
     Clip(ClipOptions),
     /// Write what SIMPLE makes of events, and their motion, in chunks of time, as tables of regressors (BIDS)
@@ -106,6 +109,7 @@ impl Interface for Command {
             Self::Stats(arguments) => stats::run(arguments, context),
             Self::Simulate(arguments) => simulate::run(arguments, context),
             Self::Render(arguments) => render::run(arguments, context),
+            Self::Track(arguments) => track::run(arguments),
             Self::Clip(arguments) => laboratory::clip(arguments, context),
             Self::Observe(arguments) => laboratory::observe(arguments, context),
             Self::Aoi(arguments) => laboratory::areas(arguments, context),

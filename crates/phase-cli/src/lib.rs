@@ -76,6 +76,7 @@ pub mod splits;
 pub mod stats;
 pub mod study;
 pub mod submit;
+pub mod track;
 pub mod train;
 pub mod verify;
 

@@ -1,6 +1,9 @@
 //! An event as observed by a viewer: walls, sizes and motion, without labels.
 
-use crate::trajectory::{Trajectory, row_of};
+use crate::{
+    Noise,
+    trajectory::{Trajectory, row_of},
+};
 use phase_model::{
     AGENT_COUNT, AgentBody, AgentId, Body, Entity, Layout, MAX_ENTITIES, MAX_OBJECTS, PhysicsConfig, Scene,
     Size, State,
@@ -32,6 +35,7 @@ pub struct ObservedEvent {
     agent_sizes: [Size; AGENT_COUNT],
     object_sizes: Vec<Size>,
     rows: Vec<[Body; MAX_ENTITIES]>,
+    noise: Option<Noise>,
 }
 
 impl ObservedEvent {
@@ -55,7 +59,7 @@ impl ObservedEvent {
         let bodies = AGENT_COUNT + object_sizes.len();
         match rows.iter().position(|row| !row[..bodies].iter().all(Body::is_finite)) {
             Some(row) => Err(ObservedError::NotFinite(row)),
-            None => Ok(Self { layout, agent_sizes, object_sizes, rows }),
+            None => Ok(Self { layout, agent_sizes, object_sizes, rows, noise: None }),
         }
     }
 
@@ -67,6 +71,19 @@ impl ObservedEvent {
     pub fn in_scene(scene: &Scene, rows: Vec<[Body; MAX_ENTITIES]>) -> Result<Self, ObservedError> {
         let objects = scene.objects.iter().map(|object| object.size).collect();
         Self::new(scene.layout, scene.agents.map(|agent| agent.size), objects, rows)
+    }
+
+    /// The event with the errors of its rows, if they were measured; without, rows are exact to their last
+    /// digit, and so are angles of objects.
+    #[must_use]
+    pub fn with_noise(self, noise: Option<Noise>) -> Self {
+        Self { noise, ..self }
+    }
+
+    /// The errors of rows, if they were measured.
+    #[must_use]
+    pub const fn noise(&self) -> Option<Noise> {
+        self.noise
     }
 
     /// Adds the next row, as in [`ObservedEvent::new`].

@@ -3,6 +3,7 @@
 use crate::{
     COLUMNS, Controller, Event, EventReadError, ObservedEvent, Recording, Recovered, Row, Trajectory,
     read_simulation::{actions_of, event_of, seed_of, simulation_of},
+    tracking::tracking,
     trajectory::body_of,
     write::FILE_FORMAT,
 };
@@ -17,7 +18,7 @@ use serde_json::Value;
 use std::collections::BTreeSet;
 
 /// The members that an event may have.
-const MEMBERS: [&str; 22] = [
+const MEMBERS: [&str; 23] = [
     "id",
     "layout",
     "walls",
@@ -32,6 +33,7 @@ const MEMBERS: [&str; 22] = [
     "recorded_steps",
     "trajectory",
     "recovered_actions",
+    "tracking",
     "seed",
     "generator",
     "settings",
@@ -65,6 +67,22 @@ pub fn from_json(text: &str) -> Result<Vec<Recording>, EventReadError> {
 /// [`EventReadError`] names event, field and rule.
 pub fn parse_observed(bytes: &[u8]) -> Result<Vec<(String, ObservedEvent)>, EventReadError> {
     all_of(&json::parse(bytes)?, observed, |(id, _)| id)
+}
+
+/// Whether every event of a file has labels, right or wrong: `event`, and of each agent `goal`, `alpha` and
+/// `strength_level`. So has a file that is none.
+#[must_use]
+pub fn is_labelled(bytes: &[u8]) -> bool {
+    let Ok(document) = json::parse(bytes) else { return true };
+    let events = document.get("events").and_then(Value::as_array);
+    events.into_iter().flatten().all(|event| {
+        let agents = event.get("agents").and_then(Value::as_array);
+        let labelled = |agent: &Value| {
+            !agent.is_object()
+                || ["goal", "alpha", "strength_level"].iter().all(|label| agent.get(label).is_some())
+        };
+        !event.is_object() || event.get("event").is_some() && agents.into_iter().flatten().all(labelled)
+    })
 }
 
 /// Reads events from the bytes of a file, which need not be valid UTF-8.
@@ -159,6 +177,7 @@ fn recording(event: &Field<'_>, name: &dyn Fn() -> Option<String>) -> Result<Rec
         recorded_steps: labels.recorded_steps,
         controllers: controllers(event).map_err(in_event)?,
         recovered_actions: labels.recovered_actions,
+        tracking: tracking(event).map_err(in_event)?,
         id,
         scene,
         trajectory,
@@ -181,7 +200,8 @@ fn observed(
     let seen = ObservedEvent::new(layout, agents, objects, rows).map_err(|error| {
         in_event(FieldError { field: "trajectory".into(), rule: format!("cannot be observed: {error}") })
     })?;
-    Ok((id, seen))
+    let measured = tracking(event).map_err(in_event)?;
+    Ok((id, seen.with_noise(measured.map(|measured| measured.noise))))
 }
 
 /// The scene, which starts at the first row of the trajectory, and the trajectory.

@@ -1,6 +1,6 @@
 //! One event of a `phase-events/1` file, in memory.
 
-use crate::{Event, ObservedError, ObservedEvent, Trajectory};
+use crate::{Event, ObservedError, ObservedEvent, Tracking, Trajectory};
 use phase_model::{AGENT_COUNT, Action, Relation, Scene, State};
 use serde::Serialize;
 use serde_json::Value;
@@ -65,6 +65,8 @@ pub struct Recording {
     pub trajectory: Trajectory,
     /// The actions of the first steps, where they are known for a measured event.
     pub recovered_actions: Option<Recovered>,
+    /// How it was measured, if it was read from a video or table.
+    pub tracking: Option<Tracking>,
     /// The seed with which an event that is not yet simulated is to be simulated, so that several events can
     /// share their random draws. A simulated event has its seed in [`Recording::simulation`].
     pub seed: Option<u64>,
@@ -86,6 +88,7 @@ impl Recording {
             controllers: [Controller::Mind; AGENT_COUNT],
             trajectory: Trajectory::means(&event),
             recovered_actions: None,
+            tracking: None,
             seed: None,
             simulation: Some(SimulationRecord { event, generator, settings }),
         }
@@ -108,6 +111,7 @@ impl Recording {
     /// [`ObservedError`] for recordings that cannot occur in a file.
     pub fn observed(&self) -> Result<ObservedEvent, ObservedError> {
         let rows = self.trajectory.states().iter().map(|state| state.bodies).collect();
-        ObservedEvent::in_scene(&self.scene, rows)
+        let noise = self.tracking.as_ref().map(|tracking| tracking.noise);
+        Ok(ObservedEvent::in_scene(&self.scene, rows)?.with_noise(noise))
     }
 }

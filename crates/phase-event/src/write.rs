@@ -2,10 +2,12 @@
 
 use crate::{
     COLUMNS, Controller, Event, EventWriteError, Recording, Recovered, Row, SUBSTEP_COLUMNS, SubstepRow,
-    Thought, Trajectory, line_formatter::LineFormatter, substep_row,
+    Thought, Tracking, Trajectory, line_formatter::LineFormatter, observed::ObservedEvent, substep_row,
+    tracking::TrackingMembers, trajectory::row_of,
 };
 use phase_model::{
-    AGENT_COUNT, Action, Contacts, Entity, EventKind, Layout, MAX_ENTITIES, Relation, Scene, State, Vec2,
+    AGENT_COUNT, Action, Body, Contacts, Entity, EventKind, Layout, MAX_ENTITIES, ObjectSpec, Relation,
+    Scene, State, Vec2,
     arena::{self, STEP_VIDEO_SECONDS},
     scene_json::{AgentMembers, ObjectMembers},
 };
@@ -24,6 +26,68 @@ pub const FILE_FORMAT: &str = "phase-events/1";
 pub fn to_json(recordings: &[Recording]) -> Result<String, EventWriteError> {
     let events: Vec<String> = recordings.iter().map(Recording::to_json).collect::<Result<_, _>>()?;
     Ok(format!("{{\"format\":\"{FILE_FORMAT}\",\"events\":[\n{}\n]}}\n", events.join(",\n")))
+}
+
+/// The text of a `phase-events/1` file with events without labels, by name, which
+/// [`parse_observed`](crate::parse_observed) reads back; with how they were measured, if that is known.
+///
+/// # Errors
+/// [`EventWriteError`] names the first event that cannot be written.
+pub fn observed_to_json(
+    events: &[(&str, &ObservedEvent, Option<&Tracking>)],
+) -> Result<String, EventWriteError> {
+    let event = |(id, observed, tracking): &(&str, &ObservedEvent, Option<&Tracking>)| {
+        lines(&ObservedMembers::of(id, observed, *tracking))
+            .map_err(|source| EventWriteError::Json { event: (*id).into(), source })
+    };
+    let events: Vec<String> = events.iter().map(event).collect::<Result<_, _>>()?;
+    Ok(format!("{{\"format\":\"{FILE_FORMAT}\",\"events\":[\n{}\n]}}\n", events.join(",\n")))
+}
+
+/// An event without labels.
+#[derive(Serialize)]
+struct ObservedMembers<'a> {
+    id: &'a str,
+    layout: Layout,
+    walls: Vec<[Vec2; 2]>,
+    landmarks: [Vec2; 4],
+    agents: Vec<ObjectMembers>,
+    objects: Vec<ObjectMembers>,
+    step_seconds: f32,
+    trajectory: OwnedTable,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    tracking: Option<TrackingMembers<'a>>,
+}
+
+#[derive(Serialize)]
+struct OwnedTable {
+    columns: [&'static str; COLUMNS.len()],
+    agents: Vec<Vec<Row>>,
+    objects: Vec<Vec<Row>>,
+}
+
+impl<'a> ObservedMembers<'a> {
+    fn of(id: &'a str, observed: &ObservedEvent, tracking: Option<&'a Tracking>) -> Self {
+        let layout = observed.layout();
+        let track = |entity: usize| observed.rows().iter().map(|row| row_of(&row[entity])).collect();
+        let objects = AGENT_COUNT..AGENT_COUNT + observed.object_sizes().len();
+        let size = |size| ObjectMembers::without_start(&ObjectSpec { size, start: Body::default() });
+        Self {
+            id,
+            layout,
+            walls: layout.walls().iter().map(|wall| [wall.a, wall.b]).collect(),
+            landmarks: arena::LANDMARKS,
+            agents: observed.agent_sizes().map(size).into(),
+            objects: observed.object_sizes().iter().copied().map(size).collect(),
+            step_seconds: STEP_VIDEO_SECONDS as f32,
+            trajectory: OwnedTable {
+                columns: COLUMNS,
+                agents: (0..AGENT_COUNT).map(track).collect(),
+                objects: objects.map(track).collect(),
+            },
+            tracking: tracking.map(TrackingMembers::of),
+        }
+    }
 }
 
 impl Recording {
@@ -81,6 +145,8 @@ pub(crate) struct EventMembers<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]
     recovered_actions: Option<RecoveredMembers<'a>>,
     #[serde(skip_serializing_if = "Option::is_none")]
+    tracking: Option<TrackingMembers<'a>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
     seed: Option<u64>,
     #[serde(flatten)]
     simulation: Option<SimulationMembers<'a>>,
@@ -96,6 +162,7 @@ impl<'a> EventMembers<'a> {
             row_0: recording.row_0.as_deref(),
             recorded_steps: recording.recorded_steps,
             recovered_actions: recording.recovered_actions.as_ref().map(RecoveredMembers::of),
+            tracking: recording.tracking.as_ref().map(TrackingMembers::of),
             seed: simulation.map_or(recording.seed, |simulation| Some(simulation.event.seed)),
             agents: played(&recording.scene, recording.controllers),
             simulation: simulation.map(|simulation| SimulationMembers {
@@ -129,6 +196,7 @@ impl<'a> EventMembers<'a> {
             recorded_steps: None,
             trajectory: Table { columns: &COLUMNS, agents: &trajectory.agents, objects: &trajectory.objects },
             recovered_actions: None,
+            tracking: None,
             seed: None,
             simulation: None,
         }

@@ -1,6 +1,6 @@
 //! A part of an event, cut between two steps.
 
-use phase_event::{Recording, Row, Trajectory};
+use phase_event::{Recording, Row, Tracking, Trajectory};
 use phase_evidence::{GoalOutcome, MotionStatistics, Track};
 use phase_model::{
     AGENT_COUNT, AgentId, Attitude, Body, EventKind, Goal, MAX_ENTITIES, Relation, State, Vec2,
@@ -200,6 +200,10 @@ impl Clip {
             recorded_steps: Some(window.steps as u32),
             trajectory,
             recovered_actions: None,
+            tracking: recording.tracking.clone().map(|tracking| Tracking {
+                deviations: tracking.deviations.into_iter().map(|rows| window_of(rows, window)).collect(),
+                ..tracking
+            }),
             seed: None,
             simulation: None,
             relation_human: recording.relation_human,
@@ -211,12 +215,15 @@ impl Clip {
     }
 }
 
+fn window_of(rows: Vec<Row>, window: Window) -> Vec<Row> {
+    rows.into_iter().skip(window.first_step).take(window.steps + 1).collect()
+}
+
 /// The rows of a window. Row 0 of a simulated event is the state at the end of the step before, not a mean.
 fn rows(recording: &Recording, window: Window) -> Trajectory {
     let exact = recording.frames().nth(window.first_step * SUBSTEPS);
     let cut = |entity: usize, rows: &Vec<Row>| -> Vec<Row> {
-        let mut rows: Vec<Row> =
-            rows.iter().skip(window.first_step).take(window.steps + 1).copied().collect();
+        let mut rows: Vec<Row> = window_of(rows.clone(), window);
         if let (Some(first), Some(state)) = (rows.first_mut(), &exact) {
             let Body { position: Vec2 { x, y }, velocity, angle, .. } = state.bodies[entity];
             *first = [x, y, velocity.x, velocity.y, angle];

@@ -39,6 +39,7 @@ fn recording(steps: usize) -> Recording {
         controllers: [Controller::Mind; 2],
         trajectory: Trajectory { agents: [walker, other], objects: Vec::new() },
         recovered_actions: None,
+        tracking: None,
         seed: None,
         simulation: None,
     }

@@ -1,12 +1,14 @@
 //! Events as a viewer sees them.
 
 use crate::{arrays::reading, error::raise, event::Event, scene::Scene};
-use numpy::{PyArray1, PyArray2, PyArray3, PyUntypedArrayMethods};
-use phase_event::{COLUMNS, ObservedEvent, check_id, parse_observed};
+use numpy::{PyArray1, PyArray2, PyArray3, PyReadonlyArray4, PyUntypedArrayMethods};
+use phase_event::{COLUMNS, Noise, ObservedEvent, check_id, parse_observed};
 use phase_files::{FileError, Problem, json};
 use phase_model::{
     AGENT_COUNT, Body, Flip, Layout, LayoutError, MAX_ENTITIES, MAX_OBJECTS, Size, Vec2, arena,
 };
+use phase_runs::track::TrackRun;
+use phase_track::{Picture, TableOptions, Tracker};
 use pyo3::{PyTypeInfo, prelude::*};
 use std::{path::PathBuf, sync::Arc};
 
@@ -22,18 +24,23 @@ pub(crate) const ROW_COLUMNS: usize = COLUMNS.len();
 
 /// Base and reflection of a layout.
 type LayoutNumbers = (u64, Option<u64>);
+/// Standard deviations of position (u), velocity (u/s) and angle (rad).
+type NoiseNumbers = (f32, f32, f32);
 
 #[pymethods]
 impl Observed {
     /// An event of a layout, of agents and objects of these size levels, and of these rows, (steps + 1,
     /// entities, 5), columns x, y (u), vx, vy (u/s), angle (rad). `PhaseError` names the part and the rule.
+    /// `noise` has the standard deviations of position (u), velocity (u/s) and angle (rad), if there are any.
     #[new]
+    #[pyo3(signature = (id, layout, agent_sizes, object_sizes, rows, noise = None))]
     fn new(
         id: String,
         layout: LayoutNumbers,
         agent_sizes: [u8; AGENT_COUNT],
         object_sizes: Vec<u8>,
         rows: &Bound<'_, PyArray3<f32>>,
+        noise: Option<NoiseNumbers>,
     ) -> PyResult<Self> {
         check_id(&id).map_err(|rule| raise(format!("id {rule}, not {id:?}")))?;
         let (base, flip) = layout;
@@ -52,7 +59,8 @@ impl Observed {
         }
         let rows = read_rows(rows, AGENT_COUNT + objects.len())?;
         let event = ObservedEvent::new(layout, [size(first)?, size(second)?], objects, rows);
-        Ok(Self { id, event: Arc::new(event.map_err(raise)?) })
+        let noise = noise.map(|(position, velocity, angle)| Noise { position, velocity, angle });
+        Ok(Self { id, event: Arc::new(event.map_err(raise)?.with_noise(noise)) })
     }
 
     /// The part of an event that a viewer sees.
@@ -82,17 +90,55 @@ impl Observed {
         Ok(read.into_iter().map(|(id, event)| Self { id, event: Arc::new(event) }).collect())
     }
 
+    /// The event that a video, a folder of pictures at this rate, or a table shows.
+    #[staticmethod]
+    fn track(py: Python<'_>, path: PathBuf, frame_rate: f64) -> PyResult<Self> {
+        let run = TrackRun {
+            input: path,
+            id: None,
+            frame_rate,
+            meaning: None,
+            roles: None,
+            table: TableOptions::default(),
+        };
+        let tracked = py.detach(|| run.read()).map_err(raise)?;
+        Ok(Self { id: tracked.id, event: Arc::new(tracked.observed) })
+    }
+
+    /// The event that frames show, (frames, height, width, 3), so many a second.
+    #[staticmethod]
+    fn track_frames(id: String, frames: PyReadonlyArray4<'_, u8>, frame_rate: f64) -> PyResult<Self> {
+        let &[_, height, width, _] = frames.shape() else {
+            return Err(raise("frames must have 4 dimensions"));
+        };
+        let mut tracker = Tracker::new();
+        for (k, frame) in frames.as_array().outer_iter().enumerate() {
+            let bytes: Vec<u8> = frame.iter().copied().collect();
+            let picture = Picture::new(width, height, &bytes).map_err(raise)?;
+            tracker.push(&picture, k as f64 / frame_rate).map_err(raise)?;
+        }
+        let track = tracker.finish().map_err(raise)?;
+        let (event, _) = track.event(track.meaning(), None).map_err(raise)?;
+        Ok(Self { id, event: Arc::new(event) })
+    }
+
+    /// Standard deviations of position (u), velocity (u/s) and angle (rad), if the event was tracked.
+    #[getter]
+    fn noise(&self) -> Option<NoiseNumbers> {
+        self.event.noise().map(|noise| (noise.position, noise.velocity, noise.angle))
+    }
+
     #[allow(clippy::type_complexity)]
     fn __reduce__<'py>(
         &self,
         py: Python<'py>,
     ) -> PyResult<(
         Bound<'py, PyAny>,
-        (String, LayoutNumbers, [u8; AGENT_COUNT], Vec<u8>, Bound<'py, PyArray3<f32>>),
+        (String, LayoutNumbers, [u8; AGENT_COUNT], Vec<u8>, Bound<'py, PyArray3<f32>>, Option<NoiseNumbers>),
     )> {
         let agents = self.event.agent_sizes().map(Size::level);
         let objects = self.event.object_sizes().iter().map(|size| size.level()).collect();
-        let arguments = (self.id.clone(), self.layout(), agents, objects, self.trajectory(py)?);
+        let arguments = (self.id.clone(), self.layout(), agents, objects, self.trajectory(py)?, self.noise());
         Ok((Self::type_object(py).into_any(), arguments))
     }
 

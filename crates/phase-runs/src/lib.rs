@@ -7,6 +7,7 @@
 //!   [`export`] packs it for training programs; [`figures`] compares its figures with the paper's.
 //! - [`eval::Evaluation`] evaluates a method; [`benchmark::BenchmarkRun`]
 //!   evaluates all of them; [`leaderboard::Submission`] scores a method from outside for the leaderboard.
+//! - [`track::TrackRun`] reads the motion of bodies in a video or table.
 //! - `train::Training` trains a network (feature `networks`).
 //! - [`source::EventInput`] opens files and folders with events, [`event_writer`] and [`picture`] make the
 //!   files of one event.
@@ -82,6 +83,7 @@ mod resume;
 pub mod shortcuts;
 pub mod simulate;
 pub mod source;
+pub mod track;
 #[cfg(feature = "networks")]
 pub mod train;
 pub mod verify;

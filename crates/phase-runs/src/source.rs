@@ -8,7 +8,7 @@ use phase_dataset::{
     splits::{Item, Split},
     summary::{SUMMARY_FILE, SimulationSummary},
 };
-use phase_event::Recording;
+use phase_event::{ObservedEvent, Recording, SimulationRecord};
 use phase_files::{FileError, Problem};
 use phase_model::path::RelativePath;
 use serde_json::Value;
@@ -29,6 +29,94 @@ pub(crate) fn labels_and_rows(recording: &Recording) -> Result<Value, RunError> 
     let event: Value = serde_json::from_str(&text)
         .map_err(|source| RunError::Serialise { what: "the labels of an event", source })?;
     Ok(MEMBERS.iter().map(|&member| (member.to_owned(), event[member].clone())).collect())
+}
+
+/// An event whose labels may be unknown.
+#[derive(Clone, Debug)]
+pub struct SeenEvent<'a> {
+    /// Its name.
+    pub id: Cow<'a, str>,
+    /// What a viewer sees of it.
+    pub observed: Cow<'a, ObservedEvent>,
+    /// All of it, if it has labels.
+    pub recording: Option<Cow<'a, Recording>>,
+}
+
+/// Events of which some may have no labels.
+#[derive(Debug)]
+pub enum SeenInput {
+    /// With labels.
+    Labelled(EventInput),
+    /// The events of a file without, by name.
+    Unlabelled(Vec<(String, ObservedEvent)>),
+}
+
+impl SeenInput {
+    /// Opens what [`EventInput::open`] opens, or a file without labels.
+    ///
+    /// # Errors
+    /// Those of [`EventInput::open`].
+    pub fn open(path: &Path, ids: &[String], listener: &dyn Listener) -> Result<Self, RunError> {
+        if path.is_dir() {
+            return EventInput::open(path, ids, listener).map(Self::Labelled);
+        }
+        match phase_events::read_any(path)? {
+            phase_events::Read::Labelled(recordings) => {
+                let chosen = choose(path, recordings, ids, listener)?;
+                Ok(Self::Labelled(EventInput::Loaded(chosen)))
+            }
+            phase_events::Read::Unlabelled(events) => {
+                check_ids(path, events.iter().map(|(id, _)| id.as_str()), ids)?;
+                Ok(Self::Unlabelled(events.into_iter().filter(|(id, _)| wanted(id, ids)).collect()))
+            }
+        }
+    }
+
+    /// Number of events.
+    #[must_use]
+    pub const fn len(&self) -> usize {
+        match self {
+            Self::Labelled(input) => input.len(),
+            Self::Unlabelled(events) => events.len(),
+        }
+    }
+
+    /// Whether there is no event.
+    #[must_use]
+    pub const fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// Loads one event.
+    ///
+    /// # Errors
+    /// If its file cannot be used.
+    pub fn load(&self, index: usize) -> Result<SeenEvent<'_>, RunError> {
+        match self {
+            Self::Labelled(input) => SeenEvent::of(input.load(index)?),
+            Self::Unlabelled(events) => {
+                let (id, observed) = &events[index];
+                Ok(SeenEvent { id: Cow::Borrowed(id), observed: Cow::Borrowed(observed), recording: None })
+            }
+        }
+    }
+}
+
+impl<'a> SeenEvent<'a> {
+    /// What only a simulated event has.
+    #[must_use]
+    pub fn simulation(&self) -> Option<&SimulationRecord> {
+        self.recording.as_ref()?.simulation.as_ref()
+    }
+
+    fn of(recording: Cow<'a, Recording>) -> Result<Self, RunError> {
+        let observed = recording.observed().map_err(|error| RunError::Method {
+            id: recording.id.clone(),
+            source: phase_event::MethodError::new(error),
+        })?;
+        let id = Cow::Owned(recording.id.clone());
+        Ok(Self { id, observed: Cow::Owned(observed), recording: Some(recording) })
+    }
 }
 
 /// Events that can be loaded one at a time.
@@ -157,7 +245,15 @@ pub fn read(
     ids: &[String],
     listener: &dyn Listener,
 ) -> Result<Vec<(usize, Recording)>, RunError> {
-    let recordings = phase_events::read(file)?;
+    choose(file, phase_events::read(file)?, ids, listener)
+}
+
+fn choose(
+    file: &Path,
+    recordings: Vec<Recording>,
+    ids: &[String],
+    listener: &dyn Listener,
+) -> Result<Vec<(usize, Recording)>, RunError> {
     check_ids(file, recordings.iter().map(|recording| recording.id.as_str()), ids)?;
     let chosen: Vec<_> =
         recordings.into_iter().enumerate().filter(|(_, recording)| wanted(&recording.id, ids)).collect();

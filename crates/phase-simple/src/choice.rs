@@ -68,7 +68,8 @@ pub(crate) fn policy_of(action: Action, thought: &Thought) -> ByChoice {
 }
 
 /// Normalised likelihood of each choice for each step and agent, proportional to e^{−residual/σ}, where the
-/// residual is the best that inverse dynamics achieves with that choice and `tolerance` is σ (u).
+/// residual is the best that inverse dynamics achieves with that choice and σ (u) is `tolerance`, for noisy
+/// rows together with [`InverseDynamics::error_up_to`] the step.
 #[must_use]
 pub fn action_likelihoods(prepared: &PreparedEvent, tolerance: f64) -> Vec<[ByChoice; AGENT_COUNT]> {
     let motion = prepared.motion();
@@ -88,6 +89,7 @@ pub(crate) fn likelihoods_in(
             argmin[place] = argmin[place].min(f64::from(residuals[action.index()]));
         }
         let best = argmin.iter().copied().fold(f64::INFINITY, f64::min);
+        let tolerance = libm::hypot(tolerance, f64::from(motion.error_up_to(step)));
         // Differences from the best are taken before they are scaled, where they are exact.
         softmax(argmin.map(|residual| (best - residual) / tolerance))
     })

@@ -64,6 +64,8 @@ pub fn seeds(target: &str) -> Vec<Vec<u8>> {
             let weights = phase_data::STRENGTH_WEIGHTS;
             vec![weights.to_vec(), weights[..weights.len().min(WEIGHT_BYTES)].to_vec()]
         }
+        "table" => texts(&["time,body,x,y,angle\n0,a,8,8,0\n1,a,12,8,1\n0,b,20,20,0\n1,b,20,20,0\n"]),
+        "pictures" => vec![vec![255; 8], vec![0, 0, 0, 255, 255, 255]],
         "manifest" => texts(&[
             r#"{"format":"phase-dataset/3","name":"a","generator":"phase 0.1.0","seed":1,"events":[]}"#,
         ]),

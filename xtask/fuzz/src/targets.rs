@@ -12,7 +12,7 @@ mod texts;
 pub type Check = fn(&[u8]);
 
 /// Every target, by its name.
-pub const TARGETS: [(&str, Check); 22] = [
+pub const TARGETS: [(&str, Check); 24] = [
     ("events", texts::events),
     ("scene", texts::scene),
     ("preset", texts::preset),
@@ -29,6 +29,8 @@ pub const TARGETS: [(&str, Check); 22] = [
     ("report_model", texts::report_model),
     ("calibration", texts::calibration),
     ("weights", texts::weights),
+    ("table", texts::table),
+    ("pictures", texts::pictures),
     ("manifest", files::manifest),
     ("records", files::records),
     ("world", engines::world),

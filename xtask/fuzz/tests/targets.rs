@@ -24,6 +24,7 @@ use phase_study::{
     forms::{Form, Forms},
     question::Responses,
 };
+use phase_track::TableOptions;
 use std::{cell::Cell, fs, path::Path};
 
 /// Mutations of each target.
@@ -71,8 +72,9 @@ fn seeds_are_accepted() {
     let text = |bytes: &[u8]| String::from_utf8(bytes.to_vec()).expect("a text");
     type Accepts<'a> = (&'a str, &'a dyn Fn(&[u8]) -> bool);
     let forms = Forms::read(phase_data::FORMS).expect("forms");
-    let readers: [Accepts<'_>; 14] = [
+    let readers: [Accepts<'_>; 15] = [
         ("events", &|seed| phase_event::parse(seed).is_ok()),
+        ("table", &|seed| phase_track::table(seed, "csv", &TableOptions::default()).is_ok()),
         ("scene", &|seed| Scene::from_json(&text(seed)).is_ok()),
         ("preset", &|seed| Preset::parse("seed.json", &text(seed)).is_ok()),
         ("paths", &|seed| RelativePath::new(text(seed)).is_ok()),

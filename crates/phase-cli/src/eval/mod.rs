@@ -5,9 +5,11 @@ pub mod options;
 use crate::{context::Context, error::CliError, interrupt, output::print_result};
 use options::Eval;
 use phase_files::{json, shown, told};
+use phase_model::{AgentId, RelationProbabilities};
+use phase_render::PaletteName;
 use phase_runs::{
     eval::{
-        Answers, Evaluated, Evaluation, REPORT_FILE,
+        Answered, Answers, Evaluated, Evaluation, REPORT_FILE,
         compare::{self, MEASURES},
         networks,
     },
@@ -35,9 +37,48 @@ pub fn run(arguments: &Eval, context: &Context) -> Result<(), CliError> {
     interrupt::listen();
     let evaluation = Evaluation::from(arguments);
     match arguments {
-        Eval::Goals(_) => announce(evaluation.goals(&answers, context)?, arguments, &others),
+        Eval::Goals(_) => match evaluation.unlabelled()? {
+            Some(events) => {
+                let (answered, file) = evaluation.answers(&answers, &events, context)?;
+                common.json.print(&json!({ "events": answered }), answers_text(&answered, &file))
+            }
+            None => announce(evaluation.goals(&answers, context)?, arguments, &others),
+        },
         Eval::Trajectories(_) => announce(evaluation.trajectories(&answers, context)?, arguments, &others),
     }
+}
+
+/// Share of explained steps below which motion is said not to obey PHASE's physics.
+const LEAST_EXPLAINED: f64 = 0.5;
+
+/// What a method says of events without labels: the likeliest goals and relation of each.
+fn answers_text(answered: &[Answered], file: &Path) -> String {
+    let names = PaletteName::default().palette().names;
+    let mut text = String::new();
+    for Answered { id, answer, details, .. } in answered {
+        text += &format!("{id}:\n");
+        for (agent, goals) in AgentId::ALL.into_iter().zip(&answer.goals) {
+            if let Some(likeliest) = goals.first() {
+                text += &format!(
+                    "  {:.2} the {} {}\n",
+                    likeliest.p,
+                    names.agents[agent],
+                    names.wants(likeliest.goal, agent)
+                );
+            }
+        }
+        let RelationProbabilities { friendly, adversarial, neutral } = answer.relation;
+        text += &format!("  friendly {friendly:.2}, adversarial {adversarial:.2}, neutral {neutral:.2}\n");
+        if let Some(explained) = details["motion"]["explained"].as_f64() {
+            let error = details["motion"]["error"].as_f64().unwrap_or_default();
+            text += &format!(
+                "  PHASE's physics explains {:.0} % of the steps (median error {error:.3} u){}\n",
+                100.0 * explained,
+                if explained < LEAST_EXPLAINED { "; where it does not, form of the motion alone decides" } else { "" }
+            );
+        }
+    }
+    format!("{text}\nno labels, so nothing is scored; answers in {}", file.display())
 }
 
 /// Checks that this program has networks.

@@ -15,7 +15,7 @@ agent at angle 0 faces up. Arrays have agents first, then objects, both by numbe
 
 from ._native import ACTIONS, OBSERVATION_SIZE, PhaseError, Scene
 from .command import evaluate, generate, run, submit
-from .events import RELATIONS, Event, Events, ObservedEvent, load_events, load_observed, simulate
+from .events import RELATIONS, Event, Events, ObservedEvent, load_events, load_observed, simulate, track
 from .observation import split_observation
 from .perception import GOALS, Observer, answer, forecast, goal_index, infer, methods
 from .policies import HeuristicPolicy, Mind, RandomPolicy, ReplayPolicy, StillPolicy
@@ -53,6 +53,7 @@ __all__ = [
     "simulate",
     "split_observation",
     "submit",
+    "track",
 ]
 
 _ENVIRONMENTS = {"PhaseEnv": "env", "PhaseParallelEnv": "env", "PhaseVectorEnv": "vector"}

@@ -1,7 +1,9 @@
 """Events: simulated, read from files and datasets, as arrays."""
 
 import json
+import numbers
 import operator
+import os
 from collections.abc import Sequence
 from functools import cached_property
 
@@ -165,6 +167,11 @@ class ObservedEvent(_Seen):
     def id(self):
         """The name of the event, which is no evidence."""
         return self._native.id
+
+    @property
+    def noise(self):
+        """Standard deviations of positions (u), velocities (u/s) and angles (rad), if it was tracked, or else ``None``."""
+        return self._native.noise
 
     @property
     def steps(self):
@@ -390,6 +397,32 @@ def load_observed(path):
     """
     path = path_of(path)
     return [ObservedEvent.of_native(one) for one in _native.Observed.read(path)]
+
+
+def track(source, *, frame_rate=20, id="video"):
+    """What a video shows, as an event without labels.
+
+    Args:
+        source: the path of a video (.mp4, .gif, others through the program ffmpeg), of a folder of PNG pictures, or of a table with
+            columns ``time`` (s), ``body``, ``x``, ``y`` and perhaps ``angle`` (.csv, .jsonl); or the frames of a video, (frames, height,
+            width, 3), ``uint8``.
+        frame_rate: frames a second, 8 to 240, of an array or of a folder of pictures; files of other kinds know theirs.
+        id: the name of the event, for an array.
+
+    Returns:
+        an :class:`ObservedEvent`. Its ``noise`` has the root mean square errors of positions (u), velocities (u/s) and angles (rad).
+
+    Raises:
+        PhaseError: naming the file and what the pictures lack (docs/how-to/track.md).
+    """
+    if not (isinstance(frame_rate, numbers.Real) and 8 <= frame_rate <= 240):
+        raise PhaseError(f"frame_rate must be 8 to 240, not {frame_rate!r}")
+    if isinstance(source, (str, os.PathLike)):
+        return ObservedEvent.of_native(_native.Observed.track(path_of(source), float(frame_rate)))
+    frames = np.asarray(source)
+    if frames.dtype != np.uint8 or frames.ndim != 4 or frames.shape[-1] != 3:
+        raise PhaseError(f"frames must be uint8 of shape (frames, height, width, 3), not {frames.dtype} of {frames.shape}")
+    return ObservedEvent.of_native(_native.Observed.track_frames(text("id", id), np.ascontiguousarray(frames), float(frame_rate)))
 
 
 def simulate(scene, seed=0, *, id="event", engine="world", max_steps=100, parameters=None):

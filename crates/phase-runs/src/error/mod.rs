@@ -3,6 +3,7 @@
 #[cfg(feature = "networks")]
 pub mod train;
 
+use crate::track::VideoError;
 #[cfg(feature = "networks")]
 use phase_baselines::training::{NetworkError, TrainingRecordError};
 use phase_dataset::ExportError;
@@ -154,6 +155,14 @@ pub enum RunError {
         /// The operation that requires more rows.
         needed: &'static str,
     },
+    /// A video or table has no motion that can be read.
+    #[error("{}: {source}", file.display())]
+    Track {
+        /// The file.
+        file: PathBuf,
+        /// Why.
+        source: VideoError,
+    },
     /// A dataset has no manifest because its run was interrupted.
     #[error("{}: is unfinished; the command that began it goes on from there", .0.display())]
     Unfinished(PathBuf),
@@ -211,6 +220,7 @@ impl RunError {
     #[must_use]
     pub const fn fault(&self) -> Fault {
         match self {
+            Self::Track { source: VideoError::Interrupted, .. } | Self::Interrupted(_) => Fault::Interruption,
             Self::File(_)
             | Self::Folder(_)
             | Self::Output(_)
@@ -223,8 +233,8 @@ impl RunError {
             | Self::Unfinished(_)
             | Self::SimulationSettings { .. }
             | Self::StartAlone { .. }
+            | Self::Track { .. }
             | Self::Usage(_) => Fault::Input,
-            Self::Interrupted(_) => Fault::Interruption,
             Self::Simulation { .. }
             | Self::Method { .. }
             | Self::Models(_)

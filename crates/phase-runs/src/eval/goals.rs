@@ -115,7 +115,7 @@ fn steps_of(seconds: f64) -> usize {
     (seconds / STEP_VIDEO_SECONDS) as usize
 }
 
-fn judge(
+pub(super) fn judge(
     method: &dyn Recogniser,
     observed: &ObservedEvent,
     seed: u64,

@@ -15,8 +15,10 @@ pub(crate) mod scored;
 mod shards;
 pub(crate) mod task;
 pub(crate) mod trajectories;
+mod unlabelled;
 
 pub use task::{Evaluated, REPORT_FILE};
+pub use unlabelled::Answered;
 
 use crate::{effort::MindChoice, error::RunError, listener::Listener};
 use goals::Goals;

@@ -9,12 +9,12 @@ use crate::{
     listener::Listener,
     parallel::{self, make_all},
     picture::{self, BeliefFrame, Look, ObserverFrame, RenderedState},
-    source::EventInput,
+    source::{SeenEvent, SeenInput},
     words,
 };
-use phase_event::{Recording, SimulationRecord};
+use phase_event::SimulationRecord;
 use phase_files::{WriteError, atomic, serialize_told};
-use phase_model::{AgentId, arena::SUBSTEPS};
+use phase_model::{AGENT_COUNT, AgentId, State, Strength, arena::SUBSTEPS};
 use phase_render::Palette;
 use phase_sim::SimulationSettings;
 use serde::Serialize;
@@ -89,21 +89,27 @@ impl Rendering {
     /// If the events cannot be used or have no beliefs to show, `out` is not such a folder or file, SIMPLE
     /// cannot watch an event, a file cannot be written, or a stop was requested.
     pub fn run(&self, listener: &dyn Listener) -> Result<Vec<Rendered>, RunError> {
-        let source = EventInput::open(&self.events, &self.ids, listener)?;
+        let source = SeenInput::open(&self.events, &self.ids, listener)?;
         let target = Target::of(&self.out, self.extension(), source.len())?;
         // Known before the work for events in files that are already read; folders contain simulated events.
-        if !self.view.agents().is_empty()
-            && let Some(recording) = source.loaded().find(|recording| recording.simulation.is_none())
-        {
-            return Err(self.unsimulated(&recording.id));
+        if !self.view.agents().is_empty() {
+            let unsimulated = match &source {
+                SeenInput::Labelled(input) => {
+                    input.loaded().find(|recording| recording.simulation.is_none()).map(|it| &it.id)
+                }
+                SeenInput::Unlabelled(events) => events.first().map(|(id, _)| id),
+            };
+            if let Some(id) = unsimulated {
+                return Err(self.unsimulated(id));
+            }
         }
         let activity = format!("rendering {}", words::events(source.len()));
         let progress = listener.progress(&activity, source.len(), 1);
         let made = make_all(parallel::threads(self.threads), source.len(), |index| {
-            let recording = source.load(index)?;
-            let made = self.one(&recording, target.path(&recording.id, self))?;
+            let event = source.load(index)?;
+            let made = self.one(&event, target.path(&event.id, self))?;
             if made.is_some() {
-                progress.event(0, &recording.id);
+                progress.event(0, &event.id);
             }
             Ok(made)
         })?;
@@ -112,7 +118,7 @@ impl Rendering {
     }
 
     /// Draws one event; `None` if it was interrupted.
-    fn one(&self, recording: &Recording, path: PathBuf) -> Result<Option<Rendered>, RunError> {
+    fn one(&self, event: &SeenEvent<'_>, path: PathBuf) -> Result<Option<Rendered>, RunError> {
         let watched = match self.view {
             View::Observer(seed) => {
                 if is_same_file(&course_path(&path), &self.events) {
@@ -120,18 +126,17 @@ impl Rendering {
                     let rule = "is read, and what an observer makes of it would be written there; choose another --out";
                     return Err(RunError::Usage(format!("{file}: {rule}")));
                 }
-                let Some(watched) = watch(recording, seed, &requested)? else { return Ok(None) };
+                let Some(watched) = watch(event, seed, &requested)? else { return Ok(None) };
                 Some(watched)
             }
             _ => None,
         };
-        if !self.draw(recording, &path, watched.as_deref())? {
+        if !self.draw(event, &path, watched.as_deref())? {
             return Ok(None);
         }
-        let observer =
-            watched.map(|watched| ObserverCourse::write(&path, &recording.id, watched)).transpose()?;
-        let interpolated = recording.simulation.is_none();
-        Ok(Some(Rendered { id: recording.id.clone(), file: path, interpolated, observer }))
+        let observer = watched.map(|watched| ObserverCourse::write(&path, &event.id, watched)).transpose()?;
+        let interpolated = event.simulation().is_none();
+        Ok(Some(Rendered { id: event.id.clone().into_owned(), file: path, interpolated, observer }))
     }
 
     const fn extension(&self) -> &'static str {
@@ -141,15 +146,16 @@ impl Rendering {
     /// Draws one event into a file; returns whether that was not interrupted.
     fn draw(
         &self,
-        recording: &Recording,
+        event: &SeenEvent<'_>,
         path: &Path,
         watched: Option<&[Watched]>,
     ) -> Result<bool, RunError> {
-        let id = &recording.id;
-        let physics = recording.scene.physics();
+        let id = event.id.as_ref();
+        // Strengths cannot be seen, nor are they drawn.
+        let physics = event.observed.physics([Strength::Fair.max_force(); AGENT_COUNT]);
         let palette = self.look.palette;
         let agents = self.view.agents();
-        let minds: Vec<Vec<BeliefFrame>> = match &recording.simulation {
+        let minds: Vec<Vec<BeliefFrame>> = match event.simulation() {
             _ if agents.is_empty() => Vec::new(),
             Some(simulation) => {
                 let settings = self.settings(id, simulation)?;
@@ -181,7 +187,11 @@ impl Rendering {
             .collect();
         // The observer sees a step when it is over.
         let observer_at = |frame: usize| observers.get(frame / SUBSTEPS).or(observers.last());
-        let items = recording.frames().enumerate().map(|(k, state)| RenderedState {
+        let frames: Box<dyn Iterator<Item = State>> = match &event.recording {
+            Some(recording) => recording.frames(),
+            None => Box::new(event.observed.frames().into_iter()),
+        };
+        let items = frames.enumerate().map(|(k, state)| RenderedState {
             state,
             minds: minds_at(k),
             observer: observer_at(k),

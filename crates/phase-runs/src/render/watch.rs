@@ -1,8 +1,8 @@
 //! Inference of an observer about an event while it watches it, for a video.
 
-use crate::error::RunError;
+use crate::{error::RunError, source::SeenEvent};
 use core::ops::ControlFlow;
-use phase_event::{MethodError, Recording};
+use phase_event::MethodError;
 use phase_model::{
     AgentId, Attitude, Entity, Goal, RelationProbabilities, RoleProbabilities, arena::STEP_VIDEO_SECONDS,
     words,
@@ -41,12 +41,12 @@ pub(super) struct GoalShare {
 /// Watches an event to its end: what SIMPLE says at its first row and after each step. `interrupted` is asked
 /// between steps; if it says so, the result is `None`.
 pub(super) fn watch(
-    recording: &Recording,
+    event: &SeenEvent<'_>,
     seed: u64,
     interrupted: &dyn Fn() -> bool,
 ) -> Result<Option<Vec<Watched>>, RunError> {
-    let failed = |error: MethodError| RunError::Method { id: recording.id.clone(), source: error };
-    let observed = recording.observed().map_err(|error| failed(MethodError::new(error)))?;
+    let failed = |error: MethodError| RunError::Method { id: event.id.clone().into_owned(), source: error };
+    let observed = &event.observed;
     let simple = Simple::bundled()?;
     let observer = simple.observer(&observed.prefix(0), seed);
     let mut observer = observer.map_err(|error| failed(MethodError::new(error)))?;

@@ -1,6 +1,9 @@
 //! The difference between a predicted body and the observed one.
 
-use super::interpolation::SUBSTEPS_TO_END;
+use super::{
+    interpolation::SUBSTEPS_TO_END,
+    noise::{GAIN, VELOCITY_GAIN},
+};
 use phase_model::{
     Body, MAX_ENTITIES, State, Vec2,
     arena::{STEP_SECONDS, SUBSTEP_SECONDS, SUBSTEPS},
@@ -25,13 +28,22 @@ impl Difference {
         }
     }
 
-    /// Squared magnitude (u²): velocities are weighted by the distance covered in a step, angles by the
-    /// motion of the rim.
-    pub(super) fn square(&self, radius: f32) -> f32 {
+    /// Squared magnitude (u²): velocities, if they were measured, are weighted by the distance covered in a
+    /// step, angles by the motion of the rim.
+    pub(super) fn square(&self, radius: f32, velocities: bool) -> f32 {
         let turned = self.angle * radius;
-        self.position.length_squared()
-            + (self.velocity * STEP_SECONDS as f32).length_squared()
-            + turned * turned
+        let moved = if velocities { self.velocity * STEP_SECONDS as f32 } else { Vec2::ZERO };
+        self.position.length_squared() + moved.length_squared() + turned * turned
+    }
+
+    /// The body at the end of the step, corrected by a part of what a noisy row says.
+    pub(super) fn partly_added_to(&self, body: &Body) -> Body {
+        Body {
+            position: body.position + self.position * GAIN,
+            velocity: body.velocity + self.position * (VELOCITY_GAIN / STEP_SECONDS as f32),
+            angle: body.angle + self.angle * GAIN,
+            angular_velocity: body.angular_velocity,
+        }
     }
 
     /// The body at the end of the step, corrected.

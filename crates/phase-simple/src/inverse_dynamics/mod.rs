@@ -14,6 +14,7 @@ mod beam;
 mod coupling;
 mod difference;
 mod interpolation;
+mod noise;
 mod path;
 mod reading;
 mod replay;
@@ -178,9 +179,22 @@ impl InverseDynamics {
         })
     }
 
-    /// Whether each step is explained, to within [`EXPLAINED_RESIDUAL`].
+    /// Whether each step is explained, to within [`EXPLAINED_RESIDUAL`] and what errors of rows leave.
     pub fn explained(&self) -> impl Iterator<Item = bool> + '_ {
-        self.residuals.iter().map(|&residual| residual <= EXPLAINED_RESIDUAL)
+        self.residuals.iter().map(|&residual| residual <= EXPLAINED_RESIDUAL + 2.0 * self.replay.noise)
+    }
+
+    /// The error that rows and physics together leave in the steps up to one (u): the median residual, but
+    /// not less than errors of rows alone leave; 0 for exact rows. It is large for motion that does not obey
+    /// this physics.
+    #[must_use]
+    pub fn error_up_to(&self, step: usize) -> f32 {
+        if self.replay.noise == 0.0 {
+            return 0.0;
+        }
+        let mut residuals: Vec<f32> = self.residuals.iter().take(step + 1).copied().collect();
+        residuals.sort_by(f32::total_cmp);
+        residuals.get(residuals.len() / 2).copied().unwrap_or(0.0).max(self.replay.noise)
     }
 
     /// The residual of every step (u) if an agent does each of its actions instead, by [`Action::index`], the

@@ -87,14 +87,14 @@ impl Path {
             strengths,
             actions: candidates.map(|(action, _)| action),
             residual: predicted.residual,
-            cost: self.cost + cost(predicted.residual) + GRIP_CHANGE_COST * changes as f64,
+            cost: self.cost + cost(predicted.residual, replay.noise) + GRIP_CHANGE_COST * changes as f64,
         };
         if predicted.residual <= UNCORRECTED {
             return vec![plain];
         }
         let mut corrected = plain.clone();
         corrected.correct(replay, &predicted.differences, between);
-        if predicted.residual > ALWAYS_CORRECTED {
+        if predicted.residual > ALWAYS_CORRECTED + 2.0 * replay.noise {
             return vec![corrected];
         }
         plain.cost += UNCORRECTED_COST;
@@ -105,7 +105,7 @@ impl Path {
     fn correct(&mut self, replay: &Replay, differences: &[Difference; MAX_ENTITIES], between: &State) {
         for entity in replay.bodies() {
             let difference = &differences[entity];
-            if difference.square(replay.radii[entity]) < UNCORRECTED * UNCORRECTED {
+            if difference.square(replay.radii[entity], replay.noise == 0.0) < UNCORRECTED * UNCORRECTED {
                 continue;
             }
             let body = &mut self.tracked.state.bodies[entity];
@@ -115,11 +115,13 @@ impl Path {
                 // Of all angles that look like the observed one, the nearest.
                 let turned = Difference::between(body, observed, replay.reading.angle_periods[entity]).angle;
                 Body { angle: body.angle + turned, angular_velocity: body.angular_velocity, ..*observed }
+            } else if replay.noise > 0.0 {
+                difference.partly_added_to(body)
             } else {
                 difference.added_to(body)
             };
         }
-        if self.residual > FORGET_CONTACTS {
+        if self.residual > FORGET_CONTACTS + 2.0 * replay.noise {
             self.tracked = replay.at(self.tracked.state);
         }
     }
@@ -146,9 +148,9 @@ impl Path {
     }
 }
 
-/// Cost of a residual (u), in logarithms: a heavy-tailed distribution, since motion that cannot be explained
-/// does occur.
-pub(super) fn cost(residual: f32) -> f64 {
-    let scaled = f64::from(residual) / RESIDUAL_SCALE;
+/// Cost of a residual (u), in logarithms, if errors of rows alone leave `noise` (u): a heavy-tailed
+/// distribution, since motion that cannot be explained does occur.
+pub(super) fn cost(residual: f32, noise: f32) -> f64 {
+    let scaled = f64::from(residual) / libm::hypot(RESIDUAL_SCALE, f64::from(noise));
     libm::log1p(scaled * scaled)
 }

@@ -49,7 +49,10 @@ impl Reading {
         let as_observed = |start, cost| Self {
             start,
             event: observed.clone(),
-            angle_periods: [Some(TAU); MAX_ENTITIES],
+            angle_periods: core::array::from_fn(|body| {
+                // Discs look the same however they are turned.
+                (body < AGENT_COUNT || observed.noise().is_none()).then_some(TAU)
+            }),
             cost,
             flip: None,
         };
@@ -69,7 +72,7 @@ impl Reading {
         let rows = observed.rows().iter().map(mirrored).collect();
         let agents = observed.agent_sizes();
         let objects = observed.object_sizes().to_vec();
-        let event = ObservedEvent::new(layout, agents, objects, rows).ok()?;
+        let event = ObservedEvent::new(layout, agents, objects, rows).ok()?.with_noise(observed.noise());
         let period = match flip {
             Flip::UpDown | Flip::LeftRight => TAU,
             Flip::Diagonal | Flip::AntiDiagonal => TAU / SUBSTEPS as f32,

@@ -2,6 +2,7 @@
 
 use super::{
     difference::Difference,
+    noise::expected_residual,
     reading::{Reading, Start},
 };
 use phase_forward::{Exertion, Forward, SolverCache};
@@ -45,6 +46,8 @@ pub(super) struct Replay {
     pub(super) reading: Reading,
     pub(super) physics: PhysicsConfig,
     pub(super) radii: [f32; MAX_ENTITIES],
+    /// The residual that errors of rows alone leave (u); 0 if they are exact.
+    pub(super) noise: f32,
     forward: Forward,
 }
 
@@ -59,7 +62,8 @@ impl Replay {
                 Entity::Object(object) => physics.object_radii[object],
             };
         }
-        Self { forward: Forward::new(&physics), reading, physics, radii }
+        let noise = expected_residual(event.noise(), &radii);
+        Self { forward: Forward::new(&physics), reading, physics, radii, noise }
     }
 
     /// The row that was observed after so many steps.
@@ -140,7 +144,10 @@ impl Replay {
     }
 
     fn norm(&self, differences: &[Difference; MAX_ENTITIES]) -> f32 {
-        self.bodies().map(|body| differences[body].square(self.radii[body])).sum::<f32>().sqrt()
+        self.bodies()
+            .map(|body| differences[body].square(self.radii[body], self.noise == 0.0))
+            .sum::<f32>()
+            .sqrt()
     }
 
     /// The first step of a late start, of which the state after its first substep is known: the state before

@@ -53,7 +53,7 @@ pub(super) fn explanations(
     let residuals = search.residuals(&both);
     let mut pairs: Vec<_> = both.iter().map(|&pair| search.named(pair)).zip(residuals).collect();
     pairs.sort_by(|a, b| a.1.total_cmp(&b.1));
-    let best = best(&pairs);
+    let best = best(replay, &pairs);
     let explanation =
         |candidates| Explanation { candidates, predicted: replay.step(tracked, row, candidates) };
     best.into_iter().map(explanation).collect()
@@ -109,14 +109,14 @@ impl Search<'_> {
             }
         }
         let least = residuals[1].iter().copied().fold(f32::INFINITY, f32::min);
-        if least > EXACT && coupled(self.replay, &self.tracked.state) {
+        if least > self.replay.exact() && coupled(self.replay, &self.tracked.state) {
             return AgentId::ALL.map(|agent| (0..self.candidates[agent].len()).collect());
         }
-        let limit = limit(least);
+        let limit = self.replay.limit(least);
         AgentId::ALL.map(|agent| {
             let follow = |(candidate, residual): (usize, &f32)| {
                 let good = *residual <= limit || candidate == best[agent];
-                (good || least > EXACT && changes_grip(self.candidates[agent][candidate]))
+                (good || least > self.replay.exact() && changes_grip(self.candidates[agent][candidate]))
                     .then_some(candidate)
             };
             residuals[agent].iter().enumerate().filter_map(follow).collect()
@@ -126,10 +126,13 @@ impl Search<'_> {
 
 /// The pairs of candidate actions to be followed, of all those that were tried, sorted by their residuals
 /// (u).
-fn best(pairs: &[([CandidateAction; AGENT_COUNT], f32)]) -> Vec<[CandidateAction; AGENT_COUNT]> {
+fn best(
+    replay: &Replay,
+    pairs: &[([CandidateAction; AGENT_COUNT], f32)],
+) -> Vec<[CandidateAction; AGENT_COUNT]> {
     let least = pairs.first().map_or(0.0, |pair| pair.1);
-    let good = pairs.iter().filter(|pair| pair.1 <= limit(least)).count();
-    let count = if least <= EXACT { good } else { good.min(MAX_INEXACT) };
+    let good = pairs.iter().filter(|pair| pair.1 <= replay.limit(least)).count();
+    let count = if least <= EXACT && replay.noise == 0.0 { good } else { good.min(MAX_INEXACT) };
     // Who changes its grip. What a grip does often shows later, so the best of each such kind is followed,
     // too.
     let mut kinds: Vec<[bool; AGENT_COUNT]> = Vec::new();
@@ -152,7 +155,14 @@ fn changes_grip((action, _): CandidateAction) -> bool {
     matches!(action, Action::Attach | Action::Detach)
 }
 
-/// Residual up to which explanations are followed beside one with this residual (u).
-fn limit(least: f32) -> f32 {
-    (WORSE * least).max(EXACT)
+impl Replay {
+    /// Residual below which a step is explained as well as rows are exact (u).
+    fn exact(&self) -> f32 {
+        EXACT.max(1.5 * self.noise)
+    }
+
+    /// Residual up to which explanations are followed beside one with this residual (u).
+    fn limit(&self, least: f32) -> f32 {
+        if self.noise > 0.0 { least + self.noise } else { (WORSE * least).max(EXACT) }
+    }
 }

@@ -29,7 +29,7 @@ pub(super) fn level_costs(
             both
         };
         for candidate in &candidates {
-            let cost = path::cost(replay.step(tracked, row, instead(candidate)).residual);
+            let cost = path::cost(replay.step(tracked, row, instead(candidate)).residual, replay.noise);
             let pushes = candidate.0.push().is_some();
             for (level, least) in costs.iter_mut().enumerate() {
                 if !pushes || level == candidate.1 {

@@ -181,7 +181,7 @@ impl Recogniser for Simple {
     ) -> MethodResult<Judgement> {
         let prepared = self.prepare(observed, seed);
         let inference = self.infer(&prepared, seed, tick).map_err(MethodError::new)?;
-        Ok(inference.map(|inference| (self.judgement(&inference), details(&inference))))
+        Ok(inference.map(|inference| (self.judgement(&inference), details(&prepared, &inference))))
     }
 }
 
@@ -208,12 +208,12 @@ impl Forecaster for Simple {
             futures(&prepared, &inference, steps, seed, &self.forecast, tick).map_err(MethodError::new)?;
         Ok(futures.map(|futures| {
             let prediction = Prediction { forecast: futures.median(), samples: futures.draw(SAMPLES, seed) };
-            (prediction, details(&inference))
+            (prediction, details(&prepared, &inference))
         }))
     }
 }
 
-fn details(inference: &Inference) -> Value {
+fn details(prepared: &PreparedEvent, inference: &Inference) -> Value {
     let hypothesis = |(hypothesis, weight): &(_, f64)| json!({ "hypothesis": hypothesis, "weight": weight });
     let hypotheses: Vec<Value> =
         inference.posterior.hypotheses.iter().take(REPORTED_HYPOTHESES).map(hypothesis).collect();
@@ -222,11 +222,21 @@ fn details(inference: &Inference) -> Value {
         json!({ "kind": name, "probability": kind.probability })
     };
     let minds: Vec<Value> = inference.minds.iter().map(kind).collect();
-    json!({
+    let mut details = json!({
         "hypotheses": hypotheses,
         "minds": minds,
         "impression": inference.impression,
         "accepted": inference.accepted,
         "simulated": inference.simulated,
-    })
+    });
+    if prepared.observed().noise().is_some() {
+        let motion = prepared.motion();
+        let steps = motion.residuals.len();
+        let explained = motion.explained().filter(|explained| *explained).count();
+        details["motion"] = json!({
+            "error": motion.error_up_to(steps),
+            "explained": explained as f64 / steps.max(1) as f64,
+        });
+    }
+    details
 }

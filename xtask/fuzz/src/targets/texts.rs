@@ -19,6 +19,7 @@ use phase_study::{
     question::Responses,
 };
 use phase_tensors::TensorFile;
+use phase_track::{Picture, TableOptions, Tracker};
 use serde_json::json;
 use std::{path::Path, sync::LazyLock};
 
@@ -155,4 +156,35 @@ pub(super) fn weights(data: &[u8]) {
         }
     }
     let _ = (StrengthRegressor::from_safetensors(data), IntentNetwork::from_safetensors(data));
+}
+
+/// Tables of positions: what is accepted is an event that can be written and read again.
+pub(super) fn table(data: &[u8]) {
+    for ending in ["csv", "jsonl"] {
+        let Ok((event, tracking)) = phase_track::table(data, ending, &TableOptions::default()) else {
+            continue;
+        };
+        let events = [("fuzz", &event, Some(&tracking))];
+        let text = phase_event::observed_to_json(&events).expect("what is read can be written");
+        let again = phase_event::parse_observed(text.as_bytes()).expect("what is written can be read");
+        assert_eq!(again[0].1.rows(), event.rows());
+    }
+}
+
+/// Pictures of any pixels, three times the same but for one row.
+pub(super) fn pictures(data: &[u8]) {
+    const SIDE: usize = 96;
+    let mut pixels = vec![255; 3 * SIDE * SIDE];
+    pixels.iter_mut().zip(data.iter().cycle()).for_each(|(pixel, byte)| *pixel = *byte);
+    let mut tracker = Tracker::new();
+    for frame in 0..3 {
+        pixels[..3 * SIDE].rotate_left(3 * frame);
+        let picture = Picture::new(SIDE, SIDE, &pixels).expect("a picture of a good size");
+        if tracker.push(&picture, frame as f64 / 8.0).is_err() {
+            return;
+        }
+    }
+    let Ok(track) = tracker.finish() else { return };
+    let (event, _) = track.event(track.meaning(), None).expect("what is tracked is an event");
+    assert!(event.steps() > 0);
 }

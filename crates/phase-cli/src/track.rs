@@ -1,0 +1,205 @@
+//! `track`: motion of bodies in videos, pictures or tables.
+
+use crate::{error::CliError, interrupt, named::named, output::Output};
+use clap::Args;
+use phase_event::observed_to_json;
+use phase_files::{atomic, told};
+use phase_model::{Flip, Layout, Size};
+use phase_runs::track::{TrackRun, Tracked};
+use phase_track::{FrameMeaning, Roles, TableOptions};
+use serde_json::json;
+use std::path::PathBuf;
+
+/// Options of `track`.
+#[derive(Args, Debug)]
+pub struct TrackOptions {
+    /// Videos (.mp4, .gif; others through ffmpeg), folders of PNG pictures, or tables (.csv, .tsv, .jsonl)
+    #[arg(value_name = "FILE|DIR", required = true)]
+    pub inputs: Vec<PathBuf>,
+    /// The file for the events, in the format phase-events/1 without labels
+    #[arg(long, value_name = "FILE")]
+    pub out: PathBuf,
+    /// Name of the event [default: the name of the input]
+    #[arg(long, value_name = "ID")]
+    pub id: Option<String>,
+    /// Pictures a second in folders of PNG pictures, 8 to 240
+    #[arg(long, value_name = "N", default_value_t = 20, value_parser = clap::value_parser!(u32).range(8..=240))]
+    pub frame_rate: u32,
+    /// What frames show: the motion itself, or rows with bodies drawn straight from row to row [default: what
+    /// the motion looks like]
+    #[arg(long, value_name = "KIND", value_parser = named(MEANINGS, name_of))]
+    pub frames: Option<FrameMeaning>,
+    /// The colours of agent 0, agent 1 and the objects, as #rrggbb or by name, with commas between
+    /// [default: reddish agent and bluish object first]
+    #[arg(long, value_name = "COLOURS", value_parser = Roles::read)]
+    pub map: Option<Roles>,
+    /// How tables are read.
+    #[command(flatten)]
+    pub table: TableArguments,
+    /// Form in which the result is printed.
+    #[command(flatten)]
+    pub output: Output,
+}
+
+/// How tables are read.
+#[derive(Args, Debug)]
+#[command(next_help_heading = "Tables")]
+pub struct TableArguments {
+    /// Columns of time, body, x, y and, if there is one, angle (rad), with commas between; in JSON `a.b` is
+    /// member b of member a
+    #[arg(long, value_name = "NAMES", default_value = "time,body,x,y,angle", value_parser = columns)]
+    pub columns: [String; 5],
+    /// Units of the column of time in a second, above 0, such as 25 where it counts frames
+    #[arg(long, value_name = "RATE", default_value_t = 1.0, value_parser = rate)]
+    pub time_units: f64,
+    /// The bodies that are agent 0, agent 1 and objects, with commas between [default: the first four]
+    #[arg(long, value_name = "BODIES", value_delimiter = ',')]
+    pub bodies: Vec<String>,
+    /// The rectangle that becomes the arena: left, bottom, right, top [default: positions as they are if all
+    /// lie in the arena, or else all of them fitted into it]
+    #[arg(long, value_name = "L,B,R,T", value_parser = bounds, allow_hyphen_values = true)]
+    pub bounds: Option<[f64; 4]>,
+    /// y grows downwards, as in pictures
+    #[arg(long)]
+    pub y_down: bool,
+    /// Size levels of the bodies (each 0, 1, 2 or 3), with commas between; the last is that of all others
+    #[arg(long, value_name = "LEVELS", default_value = "3", value_parser = size, value_delimiter = ',')]
+    pub sizes: Vec<Size>,
+    /// Walls: a layout such as 12 or, reflected, 12.3 (docs/reference/formats/events.md)
+    #[arg(long, value_name = "LAYOUT", default_value = "0", value_parser = layout)]
+    pub layout: Layout,
+}
+
+const MEANINGS: [FrameMeaning; 2] = [FrameMeaning::Substeps, FrameMeaning::Rows];
+
+const fn name_of(meaning: FrameMeaning) -> &'static str {
+    match meaning {
+        FrameMeaning::Substeps => "motion",
+        FrameMeaning::Rows => "rows",
+    }
+}
+
+fn columns(text: &str) -> Result<[String; 5], String> {
+    let names: Vec<String> = text.split(',').map(|name| name.trim().to_owned()).collect();
+    match <[String; 5]>::try_from(names) {
+        Ok(five) => Ok(five),
+        Err(mut four) if four.len() == 4 => {
+            four.push(String::new());
+            four.try_into().map_err(|_| String::new())
+        }
+        Err(other) => {
+            Err(format!("must name the columns of time, body, x, y and perhaps angle, not {}", other.len()))
+        }
+    }
+}
+
+fn rate(text: &str) -> Result<f64, String> {
+    let rate = text.parse().ok().filter(|rate: &f64| *rate > 0.0 && rate.is_finite());
+    rate.ok_or_else(|| format!("must be above 0, not {text:?}"))
+}
+
+fn bounds(text: &str) -> Result<[f64; 4], String> {
+    let rule = || format!("must be left, bottom, right and top, such as 0,0,640,480, not {text:?}");
+    let numbers: Option<Vec<f64>> =
+        text.split(',').map(|it| it.trim().parse().ok().filter(|it: &f64| it.is_finite())).collect();
+    let bounds = numbers.and_then(|it| <[f64; 4]>::try_from(it).ok()).ok_or_else(rule)?;
+    if bounds[0] < bounds[2] && bounds[1] != bounds[3] { Ok(bounds) } else { Err(rule()) }
+}
+
+fn size(text: &str) -> Result<Size, String> {
+    let size = text.trim().parse().ok().and_then(Size::from_level);
+    size.ok_or_else(|| format!("must be a size level 0 to 3, not {text:?}"))
+}
+
+fn layout(text: &str) -> Result<Layout, String> {
+    let (base, flip) = text.split_once('.').map_or((text, None), |(base, flip)| (base, Some(flip)));
+    let rule = || format!("must be a base layout 0 to 21, perhaps with a flip .0 to .3, not {text:?}");
+    let base = base.parse().map_err(|_| rule())?;
+    let flip = flip.map(|flip| {
+        flip.parse::<usize>().ok().and_then(|flip| Flip::ALL.get(flip)).copied().ok_or_else(rule)
+    });
+    Layout::new(base, flip.transpose()?).map_err(|_| rule())
+}
+
+/// Runs the command.
+///
+/// # Errors
+/// Any [`CliError`].
+pub fn run(arguments: &TrackOptions) -> Result<(), CliError> {
+    interrupt::listen();
+    if arguments.id.is_some() && arguments.inputs.len() > 1 {
+        return Err(CliError::Usage("--id: names one event, but there are several inputs".into()));
+    }
+    let TableArguments { columns, time_units, bodies, bounds, y_down, sizes, layout } = &arguments.table;
+    let read = |input: &PathBuf| {
+        TrackRun {
+            input: input.clone(),
+            id: arguments.id.clone(),
+            frame_rate: f64::from(arguments.frame_rate),
+            meaning: arguments.frames,
+            roles: arguments.map.clone(),
+            table: TableOptions {
+                columns: columns.clone(),
+                rate: *time_units,
+                bodies: bodies.clone(),
+                bounds: *bounds,
+                y_down: *y_down,
+                sizes: sizes.clone(),
+                layout: *layout,
+            },
+        }
+        .read()
+    };
+    let tracked = arguments.inputs.iter().map(read).collect::<Result<Vec<_>, _>>()?;
+    let mut ids: Vec<String> = tracked.iter().map(|it| it.id.to_ascii_lowercase()).collect();
+    ids.sort();
+    if let Some(pair) = ids.windows(2).find(|pair| pair[0] == pair[1]) {
+        return Err(CliError::Usage(format!("two inputs give an event {}; rename one", pair[0])));
+    }
+    let events: Vec<_> =
+        tracked.iter().map(|it| (it.id.as_str(), &it.observed, Some(&it.tracking))).collect();
+    let text = observed_to_json(&events).map_err(phase_runs::error::RunError::from)?;
+    atomic::write(&arguments.out, text.as_bytes()).map_err(CliError::Output)?;
+    let lines: String = tracked.iter().map(line).collect();
+    let report: Vec<_> = tracked.iter().map(report).collect();
+    let file = arguments.out.display();
+    arguments
+        .output
+        .print(format!("{lines}{file}"), &json!({ "file": told(&arguments.out), "events": report }))
+}
+
+/// How well an event was measured, for people.
+fn line(tracked: &Tracked) -> String {
+    let Tracked { id, observed, tracking } = tracked;
+    let noise = tracking.noise;
+    let objects = observed.object_sizes().len();
+    let layout = observed.layout();
+    let flip = layout.flip().map_or_else(String::new, |flip| format!(".{}", u8::from(flip)));
+    format!(
+        "{id}: {} steps from {} frames at {:.1} a second; layout {}{flip}, 2 agents, {objects} objects; errors {:.3} u, {:.1}°; {:.1} % of poses hidden{}\n",
+        observed.steps(),
+        tracking.frames,
+        tracking.frame_rate,
+        layout.base(),
+        noise.position,
+        noise.angle.to_degrees(),
+        100.0 * tracking.hidden,
+        if tracking.straight { "; bodies go straight from row to row" } else { "" },
+    )
+}
+
+/// The same for programs.
+fn report(tracked: &Tracked) -> serde_json::Value {
+    let Tracked { id, observed, tracking } = tracked;
+    json!({
+        "id": id,
+        "steps": observed.steps(),
+        "frames": tracking.frames,
+        "frame_rate": tracking.frame_rate,
+        "layout": observed.layout(),
+        "objects": observed.object_sizes().len(),
+        "noise": tracking.noise,
+        "hidden": tracking.hidden,
+        "straight": tracking.straight,
+    })
+}

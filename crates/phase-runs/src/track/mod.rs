@@ -1,0 +1,154 @@
+//! Tracks of videos and tables: motion of bodies as an event without labels.
+
+mod animation;
+mod ffmpeg;
+mod mp4;
+mod pictures;
+
+use crate::{error::RunError, interrupt::requested};
+use phase_event::{ObservedEvent, Tracking, check_id};
+use phase_files::{FileError, Problem, regular};
+use phase_track::{FrameMeaning, Picture, Roles, TableOptions, Track, TrackError, Tracker};
+use std::{
+    io,
+    path::{Path, PathBuf},
+};
+use thiserror::Error;
+
+/// Why a video cannot be tracked.
+#[derive(Debug, Error)]
+pub enum VideoError {
+    /// Its pictures show nothing that can be tracked.
+    #[error(transparent)]
+    Track(#[from] TrackError),
+    /// It is none, or damaged.
+    #[error("is no video that can be read: {0}")]
+    Unreadable(String),
+    /// The program `ffmpeg` is needed to decode it, and is not there.
+    #[error(
+        "{0}; other videos than H.264 in .mp4, PNG and GIF need the program ffmpeg, which is not installed"
+    )]
+    NoFfmpeg(String),
+    /// Reading failed.
+    #[error("cannot be read: {0}")]
+    Io(#[from] io::Error),
+    /// A stop was requested.
+    #[error("was not read to its end")]
+    Interrupted,
+}
+
+/// Tracks H.264 in an .mp4, without the help of other programs.
+///
+/// # Errors
+/// [`VideoError`].
+pub fn read_mp4(file: std::fs::File) -> Result<Track, VideoError> {
+    mp4::track(file)
+}
+
+/// A run that tracks one video or table.
+#[derive(Clone, PartialEq, Debug)]
+pub struct TrackRun {
+    /// A video, a folder of PNG pictures, or a table (`.csv`, `.jsonl`).
+    pub input: PathBuf,
+    /// Name of the event; that of the input if absent.
+    pub id: Option<String>,
+    /// Frames a second of a folder of pictures.
+    pub frame_rate: f64,
+    /// What frames show; found out if absent.
+    pub meaning: Option<FrameMeaning>,
+    /// Which body is which, if it is given.
+    pub roles: Option<Roles>,
+    /// Columns, rate and scale of a table.
+    pub table: TableOptions,
+}
+
+/// What a run has read.
+#[derive(Clone, Debug)]
+pub struct Tracked {
+    /// Name of the event.
+    pub id: String,
+    /// The event.
+    pub observed: ObservedEvent,
+    /// How well it was measured.
+    pub tracking: Tracking,
+}
+
+impl TrackRun {
+    /// Reads the input.
+    ///
+    /// # Errors
+    /// [`RunError::Track`] names the file and the problem; [`RunError::Usage`] for an unusable `id`.
+    pub fn read(&self) -> Result<Tracked, RunError> {
+        let failed = |source: VideoError| RunError::Track { file: self.input.clone(), source };
+        let id = self.id()?;
+        let ending = ending(&self.input);
+        let (observed, tracking) = if ["csv", "jsonl", "ndjson", "tsv"].contains(&ending.as_str()) {
+            let bytes = regular::bytes(&self.input)?;
+            phase_track::table(&bytes, &ending, &self.table).map_err(|error| failed(error.into()))?
+        } else {
+            let track = self.video().map_err(failed)?;
+            let meaning = self.meaning.unwrap_or_else(|| track.meaning());
+            track.event(meaning, self.roles.as_ref()).map_err(|error| failed(error.into()))?
+        };
+        Ok(Tracked { id, observed, tracking })
+    }
+
+    fn id(&self) -> Result<String, RunError> {
+        let stem = || {
+            let stem = self.input.file_stem().unwrap_or_default().to_string_lossy();
+            let plain = |letter: char| letter.is_ascii_alphanumeric() || "-_".contains(letter);
+            let id: String =
+                stem.chars().map(|letter| if plain(letter) { letter } else { '-' }).take(60).collect();
+            id.trim_start_matches('-').to_owned()
+        };
+        let id = self.id.clone().unwrap_or_else(stem);
+        check_id(&id).map_err(|rule| RunError::Usage(format!("--id: {rule}, not {id:?}")))?;
+        Ok(id)
+    }
+
+    fn video(&self) -> Result<Track, VideoError> {
+        if self.input.is_dir() {
+            return pictures::track(&self.input, self.frame_rate);
+        }
+        let file = regular::open(&self.input).map_err(|FileError { problem, .. }| match problem {
+            Problem::Unreadable(error) => VideoError::Io(error),
+            other => VideoError::Unreadable(other.to_string()),
+        })?;
+        let native = match ending(&self.input).as_str() {
+            "gif" => return animation::track(file),
+            "mp4" | "m4v" | "mov" => mp4::track(file),
+            "png" | "jpg" | "jpeg" | "bmp" | "webp" | "svg" => {
+                let rule = "it is one picture; give a video, a GIF or a folder of PNG pictures";
+                return Err(VideoError::Unreadable(rule.into()));
+            }
+            _ => Err(VideoError::Unreadable("its ending is not .mp4 or .gif".into())),
+        };
+        match native {
+            Err(VideoError::Unreadable(why)) => ffmpeg::track(&self.input, why),
+            other => other,
+        }
+    }
+}
+
+fn ending(path: &Path) -> String {
+    path.extension().map(|ending| ending.to_string_lossy().to_lowercase()).unwrap_or_default()
+}
+
+/// Tracks pictures as they come.
+#[derive(Default)]
+struct Follower {
+    tracker: Tracker,
+}
+
+impl Follower {
+    fn push(&mut self, (width, height): (usize, usize), rgb: &[u8], seconds: f64) -> Result<(), VideoError> {
+        if requested() {
+            return Err(VideoError::Interrupted);
+        }
+        Ok(self.tracker.push(&Picture::new(width, height, rgb)?, seconds)?)
+    }
+
+    fn finish(self) -> Result<Track, VideoError> {
+        Ok(self.tracker.finish()?)
+    }
+}

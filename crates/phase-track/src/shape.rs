@@ -1,0 +1,93 @@
+//! Outlines of bodies, and what they look like.
+
+use crate::picture::{Rgb, mix};
+use phase_model::Vec2;
+
+/// Form of a body.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Form {
+    /// An agent: a trapezoid 3 R wide at its base and R at its head, 2 R high.
+    Trapezoid,
+    /// An object: a disc of radius R.
+    Disc,
+}
+
+/// Place and direction of a body. An agent at angle 0 faces up.
+#[derive(Clone, Copy, PartialEq, Debug, Default)]
+pub struct Pose {
+    /// Place of the body's origin (u).
+    pub position: Vec2,
+    /// Angle, counter-clockwise (rad); 0 for discs.
+    pub angle: f32,
+}
+
+/// What bodies look like in a video, beside their colours.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub(crate) struct Look {
+    /// Width of a dark outline inside the body's edge (u); 0 without.
+    pub(crate) outline: f32,
+    /// Whether agents have eyes.
+    pub(crate) eyes: bool,
+}
+
+/// Colour of outlines.
+const OUTLINE: Rgb = [40.0; 3];
+
+/// A body as it is drawn.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Appearance {
+    pub(crate) form: Form,
+    pub(crate) radius: f32,
+    pub(crate) colour: Rgb,
+    pub(crate) look: Look,
+}
+
+impl Appearance {
+    /// Greatest distance of the outline from the origin (u).
+    pub(crate) fn reach(&self) -> f32 {
+        self.radius * if self.form == Form::Trapezoid { 1.81 } else { 1.0 }
+    }
+
+    /// Distance from the outline (u), negative inside, of a point in the body's frame.
+    fn depth(&self, point: Vec2) -> f32 {
+        match self.form {
+            Form::Disc => point.length() - self.radius,
+            Form::Trapezoid => {
+                // A flank goes from (1.5 R, −R) to (0.5 R, R).
+                let flank = (2.0 * point.x.abs() + point.y - 2.0 * self.radius) / 5.0_f32.sqrt();
+                flank.max(point.y.abs() - self.radius)
+            }
+        }
+    }
+
+    /// Share of a pixel that the body covers, for an edge `soft` wide (u), at a point in the body's frame.
+    pub(crate) fn cover(&self, point: Vec2, soft: f32) -> f32 {
+        (0.5 - self.depth(point) / soft).clamp(0.0, 1.0)
+    }
+
+    /// The colour at a point in the body's frame over what lies under it.
+    pub(crate) fn over(&self, under: Rgb, point: Vec2, soft: f32) -> Rgb {
+        let depth = self.depth(point);
+        let share = |distance: f32| (0.5 - distance / soft).clamp(0.0, 1.0);
+        // Eyes stand out a little.
+        if depth > 0.5 * soft + if self.look.eyes { 0.1 * self.radius } else { 0.0 } {
+            return under;
+        }
+        let mut inside = self.colour;
+        if self.look.outline > 0.0 {
+            inside = mix(OUTLINE, inside, share(depth + self.look.outline));
+        }
+        let mut colour = mix(under, inside, share(depth));
+        if self.look.eyes && self.form == Form::Trapezoid {
+            let unit = Vec2::new(point.x.abs(), point.y) / self.radius;
+            let soft = soft / self.radius;
+            let disc = |centre: f32, radius: f32| {
+                (0.5 - (unit.distance(Vec2::new(0.5, centre)) - radius) / soft).clamp(0.0, 1.0)
+            };
+            colour = mix(colour, [0.0; 3], disc(0.5, 0.335));
+            colour = mix(colour, [255.0; 3], disc(0.5, 0.291));
+            colour = mix(colour, [0.0; 3], disc(0.7, 0.224));
+        }
+        colour
+    }
+}

@@ -1,0 +1,67 @@
+//! Tables as events.
+
+use phase_model::Vec2;
+use phase_track::{TableOptions, TrackError, table};
+
+fn csv(text: &str, options: &TableOptions) -> Result<phase_event::ObservedEvent, TrackError> {
+    table(text.as_bytes(), "csv", options).map(|(event, _)| event)
+}
+
+#[test]
+fn positions_at_any_rate_and_scale_become_rows() {
+    // 25 pictures a second, in pixels with y down: a moves right by 2 pixels a picture, b rests.
+    let mut text = String::from("frame,who,px,py\n");
+    for frame in 0..=50 {
+        text += &format!("{frame},a,{},100\n{frame},b,300,400\n", 100 + 2 * frame);
+    }
+    let options = TableOptions {
+        columns: ["frame", "who", "px", "py", ""].map(String::from),
+        rate: 25.0,
+        bounds: Some([0.0, 0.0, 400.0, 400.0]),
+        y_down: true,
+        ..TableOptions::default()
+    };
+    let event = csv(&text, &options).expect("an event");
+    assert_eq!(event.steps(), 8);
+    // 20 u are 400 pixels; 0.25 s are 6.25 pictures.
+    let places = |t: usize| [0, 1].map(|body| event.rows()[t][body].position);
+    assert_eq!(places(0), [Vec2::new(11.0, 17.0), Vec2::new(21.0, 2.0)]);
+    assert!((places(4)[0].x - (11.0 + 2.5)).abs() < 1e-5);
+    let moving = event.rows()[4][0];
+    // 0.625 u in 1/12 s of physics, to the right.
+    assert!((moving.velocity.x - 7.5).abs() < 1e-4, "{moving:?}");
+    assert!((moving.angle + core::f32::consts::FRAC_PI_2).abs() < 1e-5, "{moving:?}");
+}
+
+#[test]
+fn lines_of_json_are_read_by_paths() {
+    let mut text = String::from("{\"scene\": {\"id\": 1}}\n");
+    for frame in 0..10 {
+        for body in 0..2 {
+            text += &format!(
+                "{{\"track\": {{\"f\": {frame}, \"p\": {body}, \"x\": {}, \"y\": {}}}}}\n",
+                8 + frame,
+                5 + body
+            );
+        }
+    }
+    let columns = ["track.f", "track.p", "track.x", "track.y", "track.a"].map(String::from);
+    let options = TableOptions { columns, rate: 4.0, ..TableOptions::default() };
+    let (event, tracking) = table(text.as_bytes(), "jsonl", &options).expect("an event");
+    assert_eq!((event.steps(), tracking.frames), (9, 10));
+    assert_eq!(event.rows()[9][1].position, Vec2::new(17.0, 6.0));
+}
+
+#[test]
+fn what_is_no_table_is_refused_by_a_sentence() {
+    let refused = |text: &str| csv(text, &TableOptions::default()).expect_err("no table").to_string();
+    let needed = refused("t,x\n1,2\n");
+    assert!(needed.contains("has no column \"time\", only [\"t\", \"x\"]"), "{needed}");
+    assert_eq!(refused("time,body,x,y\n0,a,one,2\n"), "line 2: x must be a number, not \"one\"");
+    assert!(refused("time,body,x,y\n0,a,8,8\n1,a,8,8\n").contains("not 1 bodies"));
+    assert!(refused("time,body,x,y\n0,a,8,8\n0,b,9,9\n").contains("at one time only"));
+    assert!(refused("time,body,x,y\n0,a,8,8\n0,a,9,8\n0,b,9,9\n1,b,9,9\n").contains("two places"));
+    assert!(refused("time,body,x,y\n0,a,8,8\n0.1,a,9,8\n0,b,9,9\n0.1,b,9,9\n").contains("at least 0.25 s"));
+    assert!(refused("").contains("has no column"));
+    assert!(table(b"{\"x\": 1", "jsonl", &TableOptions::default()).is_err());
+}
