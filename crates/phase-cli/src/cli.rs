@@ -136,8 +136,18 @@ mod tests {
 
     /// Options that name something by a number, or take numbers that are not bounded: seeds, shares of a
     /// whole, amounts beyond which nothing changes.
-    const WITHOUT_BOUNDS: [&str; 9] =
-        ["seed", "resimulate", "resimulate-seed", "shard", "id", "belief", "videos", "catch", "watched"];
+    const WITHOUT_BOUNDS: [&str; 10] = [
+        "seed",
+        "resimulate",
+        "resimulate-seed",
+        "shard",
+        "id",
+        "belief",
+        "videos",
+        "catch",
+        "watched",
+        "time-units",
+    ];
 
     fn leaves(command: &Command, words: &[String], found: &mut Vec<(Vec<String>, Command)>) {
         if !command.has_subcommands() {

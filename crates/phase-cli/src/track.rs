@@ -62,10 +62,10 @@ pub struct TableArguments {
     /// y grows downwards, as in pictures
     #[arg(long)]
     pub y_down: bool,
-    /// Size levels of the bodies (each 0, 1, 2 or 3), with commas between; the last is that of all others
+    /// Size levels of the bodies, 0 to 3, with commas between; the last is that of all others
     #[arg(long, value_name = "LEVELS", default_value = "3", value_parser = size, value_delimiter = ',')]
     pub sizes: Vec<Size>,
-    /// Walls: a layout such as 12 or, reflected, 12.3 (docs/reference/formats/events.md)
+    /// Walls: a base layout, 0 to 21, or with a flip, as in 12.3 (docs/reference/formats/events.md)
     #[arg(long, value_name = "LAYOUT", default_value = "0", value_parser = layout)]
     pub layout: Layout,
 }

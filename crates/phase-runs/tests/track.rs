@@ -55,8 +55,8 @@ fn compare(Tracked { id, observed, tracking }: &Tracked) {
             let at = |substep: usize| bodies((5 * (t - 1) + substep) as f32 / 20.0)[k].position;
             (1..=5).map(at).sum::<Vec2>() / 5.0
         };
-        for k in 0..3 {
-            let off = row[k].position.distance(truth(k));
+        for (k, body) in row.iter().enumerate().take(3) {
+            let off = body.position.distance(truth(k));
             assert!(off < 0.06, "row {t}, body {k}: {off} u");
         }
     }

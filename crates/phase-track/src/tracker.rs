@@ -330,8 +330,7 @@ impl Known {
             let mut fit = surroundings.fit(&it.body, predicted, blur);
             // Edges of small or compressed bodies never fit well.
             let usual = it.usual.min(POOR);
-            let is_poor =
-                |fit: &Fit| fit.difference > usual + 12.0 || fit.visible < 2.0 * LEAST_VISIBLE;
+            let is_poor = |fit: &Fit| fit.difference > usual + 12.0 || fit.visible < 2.0 * LEAST_VISIBLE;
             if is_poor(&fit) && interval != 0.0 {
                 for start in self.elsewhere(&surroundings, &it, predicted) {
                     let other = surroundings.fit(&it.body, start, 4.0 * SHARP);

@@ -38,6 +38,10 @@ pub fn run(arguments: &Eval, context: &Context) -> Result<(), CliError> {
     let evaluation = Evaluation::from(arguments);
     match arguments {
         Eval::Goals(_) => match evaluation.unlabelled()? {
+            Some(_) if !others.is_empty() => {
+                let file = evaluation.events.display();
+                Err(CliError::Usage(format!("{file}: has no labels, which --compare needs")))
+            }
             Some(events) => {
                 let (answered, file) = evaluation.answers(&answers, &events, context)?;
                 common.json.print(&json!({ "events": answered }), answers_text(&answered, &file))
@@ -74,7 +78,11 @@ fn answers_text(answered: &[Answered], file: &Path) -> String {
             text += &format!(
                 "  PHASE's physics explains {:.0} % of the steps (median error {error:.3} u){}\n",
                 100.0 * explained,
-                if explained < LEAST_EXPLAINED { "; where it does not, form of the motion alone decides" } else { "" }
+                if explained < LEAST_EXPLAINED {
+                    "; where it does not, form of the motion alone decides"
+                } else {
+                    ""
+                }
             );
         }
     }
