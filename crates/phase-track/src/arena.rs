@@ -229,7 +229,7 @@ fn frame_of(picture: &Picture<'_>) -> Option<(View, f32)> {
     if rows.len() < 32 || columns.len() < 32 {
         return None;
     }
-    // A line without anything beside the picture's edge may itself be taken for a bar: look again from the edge.
+    // A line at the picture's edge may itself be taken for a bar.
     let rows = if rows.start > 0 && rows.start < 8 { 0..height } else { rows };
     let columns = if columns.start > 0 && columns.start < 8 { 0..width } else { columns };
     let of_columns: Vec<f32> = columns.clone().map(|x| rows.clone().map(|y| dark(x, y)).sum()).collect();

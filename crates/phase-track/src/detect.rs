@@ -54,7 +54,7 @@ pub(crate) fn bodies(picture: &Picture<'_>, stage: &Stage, ground: &[u8]) -> Res
     if agents.len() != AGENT_COUNT || objects.len() > MAX_OBJECTS {
         return Err(TrackError::Bodies { agents: agents.len(), objects: objects.len() });
     }
-    // Red before green, blue before pink, as palettes have them: by hue for agents, and backwards for objects.
+    // Red before green, blue before pink, as palettes have them.
     agents.sort_by(|a, b| hue(a.body.colour).total_cmp(&hue(b.body.colour)));
     objects.sort_by(|a, b| blueness(b.body.colour).total_cmp(&blueness(a.body.colour)));
     agents.append(&mut objects);

@@ -77,7 +77,8 @@ fn header_of(header: &str) -> Option<((usize, usize), f64)> {
     Some(((of('W')?.parse().ok()?, of('H')?.parse().ok()?), rate))
 }
 
-/// BT.601 with luma from 16 to 235. Which of the standards it was matters little: colours only need to differ.
+/// BT.601 with luma from 16 to 235. Which of the standards it was matters little: colours only need to
+/// differ.
 fn to_rgb(planes: &[u8], rgb: &mut [u8]) {
     let area = planes.len() / 3;
     let (luma, colours) = planes.split_at(area);
