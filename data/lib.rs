@@ -36,6 +36,8 @@ macro_rules! trained {
 pub const ARG: Trained = trained!("arg.safetensors");
 /// The intent network of SIMPLE.
 pub const INTENT_NETWORK: Trained = trained!("intent-network.safetensors");
+/// The policy network of our own minds (docs/explanation/minds.md).
+pub const POLICY: Trained = trained!("policy.safetensors");
 /// The Social-LSTM.
 pub const SOCIAL_LSTM: Trained = trained!("social-lstm.safetensors");
 /// SocialGNN.

@@ -3,9 +3,10 @@
 
 use core::hint::black_box;
 use criterion::{BenchmarkId, Criterion, SamplingMode};
+use phase_agent::{Mind, PolicyNetwork};
 use phase_belief::Belief;
 use phase_forward::Forward;
-use phase_minds::{Agent, PhaseParameters};
+use phase_minds::{Agent, BeliefView, PhaseParameters, Prior};
 use phase_model::{
     Action, AgentId, EventKind, Scene,
     random::{Purpose, stream},
@@ -89,6 +90,27 @@ fn main() {
         let mut search = stream(1, Purpose::Search, 0);
         bencher.iter(|| agent.decide(&mut search));
     });
+    criterion.bench_function("agent/the policy network, given its features", |bencher| {
+        let mut mind =
+            Mind::new(&scene, AgentId::ZERO, forward(), PhaseParameters::default()).expect("good parameters");
+        let belief = BeliefView { particles: &[state], observed: observation.observed, last_action: None };
+        let considered = mind.consider(belief).expect("something to choose");
+        bencher
+            .iter(|| PolicyNetwork::bundled().evaluate(black_box(&considered.features), considered.actions));
+    });
+    for (name, prior, simulations) in [
+        ("without a search", Prior::NetworkAlone, 1000),
+        ("with a search of 50 simulations", Prior::Network, 50),
+    ] {
+        criterion.bench_function(&format!("agent/one decision by the network {name}"), |bencher| {
+            let mut random = stream(1, Purpose::Belief, 0);
+            let parameters = PhaseParameters { prior, simulations, ..PhaseParameters::default() }.into();
+            let mut agent =
+                Agent::new(&scene, &parameters, &observation, None, &mut random).expect("good parameters");
+            let mut search = stream(1, Purpose::Search, 0);
+            bencher.iter(|| agent.decide(&mut search));
+        });
+    }
     scaling(&mut criterion, &scene);
     whole_events(&mut criterion);
     criterion.final_summary();

@@ -13,6 +13,10 @@ pub const PACKAGES: [(&str, &[(&str, &str)]); 4] = [
             ("check-behaviour", "Measure how reliably agents show the intended behaviour"),
             ("check-minds", "Compare minds with the agents of recordings or events whose labels are known"),
             ("check-physics", "Compare an engine of the physics with recorded motion"),
+            (
+                "check-search",
+                "Compare the decisions of short searches with those of a long one, by the priors of their root",
+            ),
             ("fit-forecast", "Fit how SIMPLE combines simulated futures"),
             ("fit-inference", "Fit how SIMPLE weighs its evidence to events whose labels are known"),
             ("fit-minds", "Fit the parameters of the minds to recordings or events whose labels are known"),

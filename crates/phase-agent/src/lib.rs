@@ -43,8 +43,10 @@ mod habits;
 mod mind;
 pub mod objective;
 mod parameters;
+pub mod policy;
 pub mod rollout_policy;
 pub mod search_model;
 
-pub use mind::{BeliefView, Mind};
-pub use parameters::{Foresight, PhaseParameters};
+pub use mind::{BeliefView, Consideration, Mind};
+pub use parameters::{Foresight, PhaseParameters, Prior};
+pub use policy::PolicyNetwork;

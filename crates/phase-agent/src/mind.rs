@@ -1,8 +1,10 @@
 //! The decision step of Algorithm 1: from particles to subgoal to action, for a given belief.
 
 use crate::{
-    PhaseParameters, action_set,
+    PhaseParameters, PolicyNetwork, Prior, action_set,
     objective::Objective,
+    policy::{Features, summary},
+    rollout_policy,
     search_model::{SearchModel, SearchState},
 };
 use phase_event::{ActionEvaluation, SubgoalValue, Thought};
@@ -13,7 +15,7 @@ use phase_model::{
 };
 use phase_navigation::Navigator;
 use phase_planner::{Candidate, Plan, Planner, value};
-use phase_pomcp::{Pomcp, PomcpError, PomcpSettings};
+use phase_pomcp::{GenerativeModel, Pomcp, PomcpError, PomcpSettings};
 use rand::{Rng, RngExt};
 
 /// One agent's goals and planners, with its own model of the dynamics. The belief is an argument of every
@@ -40,6 +42,31 @@ pub struct BeliefView<'a> {
     pub observed: BodySet,
     /// The agent's own last action, if it has acted: action is a habit.
     pub last_action: Option<Action>,
+}
+
+/// A decision before it is made, as the policy network sees it.
+#[derive(Clone, Debug)]
+pub struct Consideration {
+    /// The subgoal pursued.
+    pub subgoal: Subgoal,
+    /// The actions to choose from, at least two.
+    pub actions: &'static [Action],
+    /// The network's input.
+    pub features: Features,
+    /// The action of the heuristic in the first particle.
+    pub heuristic: Action,
+    /// The prior weight of each action by habit in the first particle.
+    pub habits: Vec<f64>,
+}
+
+/// The matter of a search.
+struct Question {
+    subgoal: Subgoal,
+    subgoals: Vec<SubgoalValue>,
+    plan: Vec<Subgoal>,
+    actions: &'static [Action],
+    /// Possible states of the world, at least one.
+    roots: Vec<State>,
 }
 
 impl<D: Dynamics> Mind<D> {
@@ -99,22 +126,57 @@ impl<D: Dynamics> Mind<D> {
         belief_view: BeliefView<'_>,
         random: &mut impl Rng,
     ) -> Result<(Action, Thought), PomcpError> {
+        let Some(question) = self.question(belief_view) else { return Ok((Action::Stop, Thought::IDLE)) };
+        let (action, actions) = match question.actions {
+            [only] => (*only, Vec::new()),
+            _ => {
+                // Each decision has its own generator, so the length of a search does not affect later ones.
+                let mut random = stream(random.next_u64(), Purpose::Search, 0);
+                self.search(belief_view, &question, &mut random)?
+            }
+        };
+        let Question { subgoal, subgoals, plan, .. } = question;
+        Ok((action, Thought { subgoal, subgoals, plan, actions }))
+    }
+
+    /// The next decision as the policy network sees it, with the actions that it is about; `None` if there
+    /// is nothing to choose. [`decide`](Self::decide) would search the same actions.
+    pub fn consider(&mut self, belief_view: BeliefView<'_>) -> Option<Consideration> {
+        let question = self.question(belief_view)?;
+        let Question { actions, subgoal, .. } = question;
+        (actions.len() > 1).then(|| {
+            self.with_model(belief_view, &question, |_, model, search_states| {
+                let mut habits = Vec::with_capacity(actions.len());
+                model.prior_weights(&search_states[0], &mut habits);
+                let heuristic = rollout_policy::action(&model.objective, search_states[0].state());
+                Consideration {
+                    subgoal,
+                    actions,
+                    features: summary(&model, search_states),
+                    heuristic,
+                    habits,
+                }
+            })
+        })
+    }
+
+    /// The subgoal to pursue and what is to be searched for it; `None` if no particle proposes any.
+    fn question(&self, belief_view: BeliefView<'_>) -> Option<Question> {
         let particles = belief_view.particles;
         let known =
             belief_view.observed.union(localised(&self.physics, particles, self.parameters.agreement));
         let (plans, plan_of) = self.plans(particles, known);
         let by_particle: Vec<&Plan> = plan_of.iter().map(|&plan| &plans[plan]).collect();
         let candidates = value::candidates(&by_particle, self.parameters.lambda);
-        let Some(best) = candidates.first() else {
-            return Ok((Action::Stop, Thought::IDLE));
-        };
+        let best = candidates.first()?;
         let search_particles = self.search_particles(belief_view, best, &by_particle);
-        let roots: Vec<State> = search_particles.iter().map(|&particle| particles[particle]).collect();
-        let plan = by_particle[search_particles[0]].subgoals.clone();
-        let subgoal = best.subgoal;
-        let (action, actions) = self.search(belief_view, subgoal, &roots, random)?;
-        let subgoals = candidates.iter().map(summary).collect();
-        Ok((action, Thought { subgoal, subgoals, plan, actions }))
+        Some(Question {
+            subgoal: best.subgoal,
+            subgoals: candidates.iter().map(summary_of).collect(),
+            plan: by_particle[search_particles[0]].subgoals.clone(),
+            actions: action_set::actions(self.agent, best.subgoal),
+            roots: search_particles.iter().map(|&particle| particles[particle]).collect(),
+        })
     }
 
     /// One plan for each distinct particle, and the index of each particle's plan. When everything is
@@ -164,56 +226,74 @@ impl<D: Dynamics> Mind<D> {
         target_entity(subgoal, self.agent).filter(|&entity| !belief_view.observed.contains(entity))
     }
 
-    /// LP(B̃, h*) of Algorithm 1: the best action for a subgoal in the worlds that agree on it.
-    fn search(
+    /// Hands over the search, the model of a question and the states to search from.
+    fn with_model<R>(
         &mut self,
         belief_view: BeliefView<'_>,
-        subgoal: Subgoal,
-        roots: &[State],
-        random: &mut impl Rng,
-    ) -> Result<(Action, Vec<ActionEvaluation>), PomcpError> {
-        let unobserved = self.unobserved_target(belief_view, subgoal);
-        let actions = action_set::actions(self.agent, subgoal);
-        if let [only] = actions {
-            return Ok((*only, Vec::new()));
-        }
+        question: &Question,
+        use_model: impl FnOnce(&mut Pomcp<u16>, SearchModel<'_, D>, &[SearchState]) -> R,
+    ) -> R {
+        let roots = &question.roots;
+        let unobserved = self.unobserved_target(belief_view, question.subgoal);
         let other = self.agent.other();
         let other_goal = Subgoal::Achieve(Literal::from(self.goals[other]));
         let physics = &self.physics;
         let parameters = &self.parameters;
         let navigator = &mut self.navigator;
-        let objective = Objective::new(physics, navigator, &roots[0], self.agent, subgoal, parameters);
+        let objective =
+            Objective::new(physics, navigator, &roots[0], self.agent, question.subgoal, parameters);
         let other_objective = Objective::new(physics, navigator, &roots[0], other, other_goal, parameters);
         let model = SearchModel {
             dynamics: &self.dynamics,
             physics,
             objective,
             other_objective,
-            actions,
+            actions: question.actions,
             goals: self.goals,
             rewards_goals: !matches!(unobserved, Some(Entity::Object(_))),
             attitude: self.attitude,
+            root_prior: Vec::new(),
         };
         // If all particles are equal, one root suffices and the search can cache its transitions.
         let different = if roots.iter().all(|root| root == &roots[0]) { &roots[..1] } else { roots };
-        let search_state: Vec<SearchState> = different
+        let search_states: Vec<SearchState> = different
             .iter()
             .map(|&state| SearchState::new(&model.objective, state, belief_view.last_action))
             .collect();
-        // Each decision has its own generator, so the length of a search does not affect later decisions.
-        let mut random = stream(random.next_u64(), Purpose::Search, 0);
-        let decision = self.pomcp.search(&model, &search_state, &mut random)?;
-        let evidence = actions
-            .iter()
-            .zip(&decision.actions)
-            .map(|(&action, found)| ActionEvaluation {
-                action,
-                visits: found.visits as u32,
-                value: found.value,
-            })
-            .collect();
-        let visits: Vec<f64> = decision.actions.iter().map(|found| found.visits as f64).collect();
-        let chosen = sample(&visits, self.parameters.decisiveness, &mut random).unwrap_or(decision.action);
+        use_model(&mut self.pomcp, model, &search_states)
+    }
+
+    /// LP(B̃, h*) of Algorithm 1: the best action for a subgoal in the worlds that agree on it.
+    fn search(
+        &mut self,
+        belief_view: BeliefView<'_>,
+        question: &Question,
+        random: &mut impl Rng,
+    ) -> Result<(Action, Vec<ActionEvaluation>), PomcpError> {
+        let PhaseParameters { prior, simulations, decisiveness, .. } = self.parameters;
+        let network = match prior {
+            Prior::Habits => None,
+            Prior::Network | Prior::NetworkAlone => Some(PolicyNetwork::bundled()),
+        };
+        let actions = question.actions;
+        let (evidence, best) =
+            self.with_model(belief_view, question, |pomcp, mut model, search_states| {
+                let of_action = |(&action, (visits, value))| ActionEvaluation { action, visits, value };
+                if let Some(network) = network {
+                    let evaluation = network.evaluate(&summary(&model, search_states), actions);
+                    model.root_prior = evaluation.policy;
+                    if prior == Prior::NetworkAlone {
+                        let visits = |p: &f64| (libm::round(p * simulations as f64) as u32, evaluation.value);
+                        let found = actions.iter().zip(model.root_prior.iter().map(visits)).map(of_action);
+                        return Ok((found.collect(), likeliest(&model.root_prior)));
+                    }
+                }
+                let decision = pomcp.search(&model, search_states, random)?;
+                let found = decision.actions.iter().map(|found| (found.visits as u32, found.value));
+                Ok((actions.iter().zip(found).map(of_action).collect::<Vec<_>>(), decision.action))
+            })?;
+        let visits: Vec<f64> = evidence.iter().map(|found| f64::from(found.visits)).collect();
+        let chosen = sample(&visits, decisiveness, random).unwrap_or(best);
         Ok((actions[chosen], evidence))
     }
 }
@@ -240,6 +320,12 @@ fn sample(visits: &[f64], exponent: f64, random: &mut impl Rng) -> Option<usize>
     None
 }
 
+/// The index of the greatest probability.
+fn likeliest(policy: &[f64]) -> usize {
+    let greatest = policy.iter().enumerate().max_by(|a, b| a.1.total_cmp(b.1));
+    greatest.map_or(0, |(index, _)| index)
+}
+
 /// The entity that a subgoal sends an agent to.
 fn target_entity(subgoal: Subgoal, agent: AgentId) -> Option<Entity> {
     let Subgoal::Achieve(Literal { predicate, holds: true }) = subgoal else { return None };
@@ -251,7 +337,7 @@ fn target_entity(subgoal: Subgoal, agent: AgentId) -> Option<Entity> {
     }
 }
 
-fn summary(candidate: &Candidate) -> SubgoalValue {
+fn summary_of(candidate: &Candidate) -> SubgoalValue {
     SubgoalValue { subgoal: candidate.subgoal, value: candidate.value, particles: candidate.particles.len() }
 }
 

@@ -34,6 +34,42 @@ impl Foresight {
     }
 }
 
+/// The priors of the root's actions in PUCT.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Prior {
+    /// Habits: the heuristic's action, momentum, walking forward.
+    #[default]
+    Habits,
+    /// The policy network, distilled from whole searches ([`PolicyNetwork`](crate::PolicyNetwork)).
+    Network,
+    /// The policy network in place of a search. What it says is taken for the shares of
+    /// [`simulations`](PhaseParameters::simulations) visits.
+    #[serde(rename = "network-alone")]
+    NetworkAlone,
+}
+
+impl Prior {
+    /// Every value, the default first.
+    pub const ALL: [Self; 3] = [Self::Habits, Self::Network, Self::NetworkAlone];
+
+    /// The name used in files and options.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Habits => "habits",
+            Self::Network => "network",
+            Self::NetworkAlone => "network-alone",
+        }
+    }
+
+    /// Whether this is the default, which files do not name.
+    #[must_use]
+    pub const fn is_habits(&self) -> bool {
+        matches!(self, Self::Habits)
+    }
+}
+
 /// The parameters of a PHASE mind: every number that shapes its decisions.
 ///
 /// Those of belief and search, up to `directions`, are the paper's where it gives them; `cargo xtask
@@ -66,6 +102,9 @@ pub struct PhaseParameters {
     pub heuristic_share: f64,
     /// The dynamics in which the agent searches.
     pub foresight: Foresight,
+    /// The priors of the root's actions.
+    #[serde(default, skip_serializing_if = "Prior::is_habits")]
+    pub prior: Prior,
     /// Directions, evenly spaced, of the pushes and of the escapes that are tried; at least 1.
     pub directions: usize,
     /// Prior of the heuristic's action in PUCT, relative to that of any other; above 0.
@@ -204,6 +243,7 @@ impl Default for PhaseParameters {
             decisiveness: 4.0,
             heuristic_share: 0.5,
             foresight: Foresight::Coarse,
+            prior: Prior::Habits,
             directions: 8,
             heuristic_prior: 2.0,
             momentum_prior: 3.0,

@@ -35,6 +35,8 @@ pub struct SearchModel<'a, D> {
     pub rewards_goals: bool,
     /// The agent's attitude.
     pub attitude: Attitude,
+    /// Prior weights of the root's actions, in place of habits; empty for none.
+    pub root_prior: Vec<f64>,
 }
 
 impl<D> SearchModel<'_, D> {
@@ -128,10 +130,38 @@ impl SearchState {
         Self { state, distance: objective.distance(&state), last_action, steps: 0, other_moves }
     }
 
+    /// Φ (u).
+    pub(crate) const fn distance(&self) -> f32 {
+        self.distance
+    }
+
+    /// The agent's last action.
+    pub(crate) const fn last_action(&self) -> Option<Action> {
+        self.last_action
+    }
+
+    /// The circumstances that priors of actions depend on.
+    pub(crate) const fn context(&self, heuristic: Action) -> Context {
+        Context { heuristic, last: self.last_action, distance: self.distance }
+    }
+
     /// The state itself.
     #[must_use]
     pub const fn state(&self) -> &State {
         &self.state
+    }
+}
+
+impl<D: Dynamics> SearchModel<'_, D> {
+    /// Imagines a step in which the agent takes an action.
+    pub(crate) fn imagine(&self, search_state: &mut SearchState, action: Action) -> Transition<()> {
+        let actions = self.joint_action(search_state, action);
+        let state = &mut search_state.state;
+        match self.objective.parameters().foresight {
+            Foresight::Coarse | Foresight::Points => self.dynamics.step_approximate(state, actions),
+            Foresight::Exact => self.dynamics.step(state, actions),
+        }
+        self.conclude(search_state, action)
     }
 }
 
@@ -158,14 +188,7 @@ impl<D: Dynamics> GenerativeModel for SearchModel<'_, D> {
         action: usize,
         _random: &mut impl Rng,
     ) -> Transition<()> {
-        let action = self.actions[action];
-        let actions = self.joint_action(search_state, action);
-        let state = &mut search_state.state;
-        match self.objective.parameters().foresight {
-            Foresight::Coarse | Foresight::Points => self.dynamics.step_approximate(state, actions),
-            Foresight::Exact => self.dynamics.step(state, actions),
-        }
-        self.conclude(search_state, action)
+        self.imagine(search_state, self.actions[action])
     }
 
     fn rollout_action(&self, search_state: &SearchState, random: &mut impl Rng) -> usize {
@@ -179,11 +202,11 @@ impl<D: Dynamics> GenerativeModel for SearchModel<'_, D> {
     }
 
     fn prior_weights(&self, search_state: &SearchState, weights: &mut Vec<f64>) {
-        let context = Context {
-            heuristic: rollout_policy::action(&self.objective, &search_state.state),
-            last: search_state.last_action,
-            distance: search_state.distance,
-        };
+        if search_state.steps == 0 && !self.root_prior.is_empty() {
+            weights.extend_from_slice(&self.root_prior);
+            return;
+        }
+        let context = search_state.context(rollout_policy::action(&self.objective, &search_state.state));
         let weight = |&action: &Action| habits::weight(action, &self.objective, &search_state.state, context);
         weights.extend(self.actions.iter().map(weight));
     }

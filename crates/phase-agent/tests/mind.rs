@@ -133,6 +133,7 @@ fn rewards_follow_equation_1() {
                 goals,
                 rewards_goals: true,
                 attitude,
+                root_prior: Vec::new(),
             };
             let mut after = SearchState::new(&objective, state, None);
             let reward = model.rollout_step(&mut after, 0, &mut stream(1, Purpose::Search, 0)).reward;

@@ -4,6 +4,7 @@
 //!   evaluates,
 //! - [`intent_network`] trains SIMPLE's learnt guess at intents, which `phase_simple::IntentNetwork`
 //!   evaluates,
+//! - [`policy`] trains the policy network of our own minds, which `phase_agent::PolicyNetwork` evaluates,
 //! - [`two_level_lstm`] and [`arg`] are the paper's baselines for Task 1,
 //! - [`social_lstm`] and [`stgat`] are those for Task 2,
 //! - [`social_gnn`] is a later one for the relations of Task 1,
@@ -62,6 +63,7 @@ mod method;
 pub mod nodes;
 pub mod parameters;
 pub mod perceptron;
+pub mod policy;
 pub mod recognition;
 pub mod social_gnn;
 pub mod social_lstm;

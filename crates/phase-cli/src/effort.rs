@@ -2,7 +2,7 @@
 
 use crate::named::named;
 use clap::{Args, value_parser};
-use phase_minds::{Foresight, MindKind, PARTICLES, SIMULATIONS};
+use phase_minds::{Foresight, MindKind, PARTICLES, Prior, SIMULATIONS};
 use phase_model::setting::EVENT_STEPS;
 use phase_runs::{
     effort::{Effort, MindChoice},
@@ -55,6 +55,11 @@ pub struct SimulationOptions {
     #[arg(long, value_name = "HOW", hide_possible_values = true,
         value_parser = named(Foresight::ALL, Foresight::name))]
     pub foresight: Option<Foresight>,
+    /// Priors of the actions in a search by our own minds: `habits`, or `network`, the policy network, or
+    /// `network-alone`, which takes what the network says and does not search [default: habits]
+    #[arg(long, value_name = "PRIOR", hide_possible_values = true,
+        value_parser = named(Prior::ALL, Prior::name))]
+    pub prior: Option<Prior>,
     /// Belief particles of each agent, 1 to 100000 [default: 50]
     #[arg(long, value_name = "K", value_parser = value_parser!(u32).range(PARTICLES.bounds()))]
     pub particles: Option<u32>,
@@ -74,6 +79,7 @@ impl SimulationOptions {
             engine: self.engine,
             minds: self.minds.into(),
             foresight: self.foresight,
+            prior: self.prior,
             particles: self.particles,
             simulations: self.simulations,
             max_steps: self.max_steps,

@@ -48,7 +48,7 @@ mod turns;
 
 pub use agent::Agent;
 pub use parameters::{MindKind, MindParameters, ParametersError};
-pub use phase_agent::{BeliefView, Foresight, PhaseParameters};
+pub use phase_agent::{BeliefView, Foresight, PhaseParameters, Prior};
 pub use phase_published::{PublishedParameters, RandomNumbers, SearchMemo};
 pub use ranges::{PARTICLES, SIMULATIONS};
 pub use turns::Recorder;

@@ -350,9 +350,15 @@ fn replace<T: Serialize + DeserializeOwned>(
     for (name, value) in given {
         let typed = |source| ParametersError::Type { name: name.clone(), source };
         let mut all = serde_json::to_value(&parameters).map_err(typed)?;
-        let Some(place) = all.get_mut(&name) else { return Err(no_parameter(name, kind)) };
-        *place = value;
-        parameters = serde_json::from_value(all).map_err(typed)?;
+        // A parameter that is left out of files at its default is known to the type alone.
+        let written = all.as_object_mut().and_then(|all| all.insert(name.clone(), value)).is_some();
+        parameters = match serde_json::from_value(all) {
+            Ok(parameters) => parameters,
+            Err(error) if !written && error.to_string().starts_with("unknown field") => {
+                return Err(no_parameter(name, kind));
+            }
+            Err(error) => return Err(typed(error)),
+        };
     }
     Ok(parameters)
 }

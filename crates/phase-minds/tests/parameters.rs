@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used, clippy::expect_used)]
 
-use phase_minds::{MindKind, MindParameters, PhaseParameters, PublishedParameters};
+use phase_minds::{MindKind, MindParameters, PhaseParameters, Prior, PublishedParameters};
 use serde_json::{Value, json};
 
 fn refused(given: Value) -> String {
@@ -15,6 +15,12 @@ fn absent_parameters_have_their_defaults() {
     let expected = PhaseParameters { simulations: 7, heuristic_share: 0.25, ..PhaseParameters::default() };
     assert_eq!(given, expected.into());
     assert_eq!(MindParameters::from_overrides(json!({})).unwrap(), MindParameters::default());
+    // The prior is left out of files at its default, and a parameter all the same.
+    let given = MindParameters::from_overrides(json!({"prior": "network-alone"})).unwrap();
+    let prior = Prior::NetworkAlone;
+    assert_eq!(given, PhaseParameters { prior, ..PhaseParameters::default() }.into());
+    assert!(json!(MindParameters::default()).get("prior").is_none());
+    assert!(refused(json!({"prior": "none"})).starts_with("field `prior` is wrong: "));
     let given = MindParameters::from_overrides(json!({"kind": "published", "searches": 3})).unwrap();
     assert_eq!(given, PublishedParameters { searches: 3, ..PublishedParameters::default() }.into());
 }

@@ -1,7 +1,7 @@
 //! Physics engine, length of events and search effort of agents, as somebody asked for them.
 
 use crate::error::RunError;
-use phase_minds::{Foresight, MindKind, MindParameters, PhaseParameters, Recorder};
+use phase_minds::{Foresight, MindKind, MindParameters, PhaseParameters, Prior, Recorder};
 use phase_sim::{Engine, SimulationSettings};
 
 /// Choice of the minds that agents have.
@@ -47,6 +47,8 @@ pub struct Effort {
     pub minds: MindChoice,
     /// Dynamics in the agents' search.
     pub foresight: Option<Foresight>,
+    /// Priors of the actions in the agents' search.
+    pub prior: Option<Prior>,
     /// Belief particles of each agent, in the range [`phase_minds::PARTICLES`].
     pub particles: Option<u32>,
     /// POMCP simulations a decision, in the range [`phase_minds::SIMULATIONS`].
@@ -80,6 +82,13 @@ impl Effort {
         }
         if let Some(foresight) = self.foresight {
             minds = with_foresight(minds, foresight)?;
+        }
+        if let Some(prior) = self.prior {
+            let MindParameters::Phase(phase) = minds else {
+                let rule = "published minds have priors of their own";
+                return Err(RunError::Usage(format!("--prior {}: {rule}", prior.name())));
+            };
+            minds = PhaseParameters { prior, ..phase }.into();
         }
         if let Some(particles) = self.particles {
             minds = minds.with_particles(particles as usize);
@@ -118,8 +127,9 @@ impl Effort {
         ];
         let switches = switches.into_iter().filter(|(on, _)| *on).map(|(_, option)| option.to_owned());
         let foresight = self.foresight.map(|foresight| format!(" --foresight {}", foresight.name()));
+        let prior = self.prior.map(|prior| format!(" --prior {}", prior.name()));
         let given = numbers.into_iter().filter_map(|(name, value)| Some(format!(" --{name} {}", value?)));
-        engine.into_iter().chain(minds).chain(switches).chain(foresight).chain(given).collect()
+        engine.into_iter().chain(minds).chain(switches).chain(foresight).chain(prior).chain(given).collect()
     }
 }
 
@@ -130,7 +140,12 @@ pub fn description(settings: &SimulationSettings) -> String {
     let engine = engine.name();
     let kind = minds.kind().name();
     let search = match minds {
-        MindParameters::Phase(phase) => format!(", foresight {}", phase.foresight.name()),
+        MindParameters::Phase(phase) if phase.prior == Prior::Habits => {
+            format!(", foresight {}", phase.foresight.name())
+        }
+        MindParameters::Phase(phase) => {
+            format!(", foresight {}, prior {}", phase.foresight.name(), phase.prior.name())
+        }
         MindParameters::Published(_) if minds.foresees_collisions() => String::new(),
         MindParameters::Published(_) => ", without collisions".to_owned(),
     };

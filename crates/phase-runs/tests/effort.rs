@@ -1,6 +1,6 @@
 //! What somebody asked for, in the settings of the simulation.
 
-use phase_minds::{Foresight, MindKind, MindParameters};
+use phase_minds::{Foresight, MindKind, MindParameters, Prior};
 use phase_runs::effort::{Effort, MindChoice, description};
 use phase_sim::{Engine, SimulationSettings};
 
@@ -44,7 +44,10 @@ fn what_minds_of_a_kind_do_not_have_is_refused() {
         let error = effort.settings().expect_err("published minds have none").to_string();
         assert!(error.starts_with(&format!("--foresight {}: ", foresight.name())), "{error}");
     }
-    let effort = Effort { minds: minds(MindKind::Published), ..Effort::default() };
+    let published = Effort { minds: minds(MindKind::Published), ..Effort::default() };
+    let error = Effort { prior: Some(Prior::Network), ..published }.settings().expect_err("other priors");
+    assert_eq!(error.to_string(), "--prior network: published minds have priors of their own");
+    let effort = published;
     let given = MindParameters::of(MindKind::Phase);
     let error = effort.settings_with(given).expect_err("two kinds").to_string();
     assert_eq!(error, "--minds published: the parameters are those of phase minds");
@@ -61,6 +64,7 @@ fn settings_that_differ_read_differently() {
         Effort { simulations: Some(3), ..base },
         Effort { max_steps: Some(3), ..base },
         Effort { foresight: Some(Foresight::Exact), ..base },
+        Effort { prior: Some(Prior::Network), ..base },
         Effort { foresight: Some(Foresight::Points), ..base },
         Effort { minds: minds(MindKind::Published), ..base },
         Effort { minds: minds(MindKind::Published), foresight: Some(Foresight::Points), ..base },

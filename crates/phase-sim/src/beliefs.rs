@@ -2,15 +2,17 @@
 
 use crate::simulation::belief_stream;
 use phase_event::Event;
-use phase_minds::{MindParameters, belief, observe};
-use phase_model::{AgentId, State, arena::SUBSTEPS};
-use phase_perception::CellSet;
+use phase_minds::{BeliefState, BeliefView, MindParameters, belief, observe};
+use phase_model::{AgentId, BodySet, State, arena::SUBSTEPS};
+use phase_perception::{CellSet, Observation};
 
 /// The field of view and belief of one agent before one of its decisions.
 #[derive(Clone, Debug)]
 pub struct BeliefSnapshot {
     /// Cells in its field of view.
     pub visible: CellSet,
+    /// The entities that it observes, itself included.
+    pub observed: BodySet,
     /// Its particles.
     pub particles: Vec<State>,
 }
@@ -26,13 +28,32 @@ pub fn beliefs(event: &Event, agent: AgentId, minds: &MindParameters) -> Vec<Bel
     let mut random = belief_stream(event.seed, agent);
     let first = observe(minds.kind(), &physics, &event.initial, agent);
     let mut belief = belief(event.scene.layout, &physics, minds, &first, Some(&event.initial), &mut random);
-    let mut snapshots =
-        vec![BeliefSnapshot { visible: first.visible, particles: belief.particles().to_vec() }];
+    let snapshot = |observation: &Observation, belief: &dyn BeliefState| BeliefSnapshot {
+        visible: observation.visible,
+        observed: observation.observed,
+        particles: belief.particles().to_vec(),
+    };
+    let mut snapshots = vec![snapshot(&first, &*belief)];
     for step in &event.steps {
         let observation = belief.observe(&step.substeps[SUBSTEPS - 1]);
         belief.update(step.actions[agent], &observation, &step.substeps, &mut random);
-        snapshots
-            .push(BeliefSnapshot { visible: observation.visible, particles: belief.particles().to_vec() });
+        snapshots.push(snapshot(&observation, &*belief));
     }
     snapshots
+}
+
+/// The belief that an agent's decision in a step was based on, by its [`beliefs`].
+///
+/// # Panics
+/// If the event has no such step.
+#[must_use]
+pub fn belief_view<'a>(
+    event: &Event,
+    agent: AgentId,
+    step: usize,
+    beliefs: &'a [BeliefSnapshot],
+) -> BeliefView<'a> {
+    let BeliefSnapshot { observed, particles, .. } = &beliefs[step];
+    let last_action = step.checked_sub(1).map(|last| event.steps[last].actions[agent]);
+    BeliefView { particles, observed: *observed, last_action }
 }

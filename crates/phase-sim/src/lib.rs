@@ -54,7 +54,7 @@ mod settings;
 mod simulation;
 pub mod vector;
 
-pub use beliefs::{BeliefSnapshot, beliefs};
+pub use beliefs::{BeliefSnapshot, belief_view, beliefs};
 pub use distances::Distances;
 pub use environment::Environment;
 pub use episode::{Episode, View};

@@ -48,7 +48,6 @@ mod answer;
 mod beliefs;
 pub mod choice;
 pub mod cue;
-mod dense;
 mod evidence;
 mod forecast;
 mod generative;
@@ -74,7 +73,6 @@ mod simulations;
 pub mod strength;
 
 pub use answer::{Inference, MindPosterior};
-pub use dense::Dense;
 pub use evidence::{ActionLikelihoods, Budget, IntentEvidence};
 pub use forecast::{
     Continuation, ForecastSettings, Futures, continuations, futures, geometric_median, hindcast_error,

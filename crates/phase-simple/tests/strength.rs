@@ -2,10 +2,10 @@
 
 use phase_model::{AgentBody, AgentId, Body, MAX_ENTITIES, Size, Strength, Vec2, physics::GROUND_FRICTION};
 use phase_simple::{
-    Dense, StrengthCue, StrengthRegressor,
+    StrengthCue, StrengthRegressor,
     strength::{FEATURES, STRENGTH_FORMAT, Weights, WeightsError, features},
 };
-use phase_tensors::TensorsError;
+use phase_tensors::{Dense, TensorsError};
 use proptest::prelude::*;
 
 /// Rows in which agent 1 has these velocities and everything else rests.

@@ -29,8 +29,10 @@
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 
+mod dense;
 mod error;
 mod file;
 
+pub use dense::{Dense, relu, vector};
 pub use error::TensorsError;
 pub use file::{NamedTensor, TensorFile, check_shape, write};

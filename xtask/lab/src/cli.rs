@@ -4,6 +4,7 @@ use crate::{
     check_behaviour::{self, options::CheckBehaviour},
     check_minds::{self, options::CheckMinds},
     check_physics::{self, options::CheckPhysics},
+    check_search,
     error::LabError,
     fit_events::FitEvents,
     fit_forecast,
@@ -29,6 +30,8 @@ pub enum Command {
     CheckBehaviour(CheckBehaviour),
     /// Compare minds with the agents of recordings or events whose labels are known
     CheckMinds(CheckMinds),
+    /// Compare the decisions of short searches with those of a long one, by the priors of their root
+    CheckSearch(FitEvents),
     /// Fit the parameters of the minds to recordings or events whose labels are known
     FitMinds(FitMinds),
     /// Fit how SIMPLE weighs its evidence to events whose labels are known
@@ -49,6 +52,7 @@ impl Interface for Command {
             Self::CheckPhysics(arguments) => check_physics::run(arguments, context),
             Self::CheckBehaviour(arguments) => check_behaviour::run(arguments, context),
             Self::CheckMinds(arguments) => check_minds::run(arguments, context),
+            Self::CheckSearch(arguments) => check_search::run(arguments, context),
             Self::FitInference(arguments) => fit_inference::run(arguments, context),
             Self::FitMinds(arguments) => fit_minds::run(arguments, context),
             Self::FitForecast(arguments) => fit_forecast::run(arguments, context),

@@ -19,6 +19,7 @@
 pub mod check_behaviour;
 pub mod check_minds;
 pub mod check_physics;
+pub mod check_search;
 pub mod cli;
 pub mod error;
 mod evaluations_file;

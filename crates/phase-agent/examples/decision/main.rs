@@ -76,6 +76,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         goals: scene.goals(),
         rewards_goals: true,
         attitude: scene.agents[ME].attitude,
+        root_prior: Vec::new(),
     };
     let mut priors = Vec::new();
     model.prior_weights(&SearchState::new(&objective, root, last_action), &mut priors);

@@ -18,6 +18,9 @@ use phase_model::{
 use phase_navigation::{Disc, Mover, Navigator};
 use pursuit::Pursuit;
 
+/// Number of kinds of pursuits ([`Objective::kind`]).
+pub(crate) const KINDS: usize = 8;
+
 /// The next motion of a body.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Motion {
@@ -73,6 +76,32 @@ impl<'a> Objective<'a> {
     #[must_use]
     pub const fn subgoal(&self) -> Subgoal {
         self.subgoal
+    }
+
+    /// The kind of pursuit that the subgoal asks for, by number, below [`KINDS`].
+    pub(crate) const fn kind(&self) -> usize {
+        let kind = match &self.pursuit {
+            Pursuit::Rest => 0,
+            Pursuit::BeAt(_) => 1,
+            Pursuit::Meet(..) => 2,
+            Pursuit::Grasp(..) => 3,
+            Pursuit::Release(_) => 4,
+            Pursuit::Bring(..) => 5,
+            Pursuit::Escape(_) => 6,
+            Pursuit::Guard(_) | Pursuit::ClearPath(_) => 7,
+        };
+        assert!(kind < KINDS);
+        kind
+    }
+
+    /// The object that the subgoal is about.
+    pub(crate) const fn object(&self) -> Option<ObjectId> {
+        match &self.pursuit {
+            Pursuit::Grasp(object, _) | Pursuit::Release(object) | Pursuit::Bring(object, ..) => {
+                Some(*object)
+            }
+            _ => None,
+        }
     }
 
     /// The parameters of the agent's mind.

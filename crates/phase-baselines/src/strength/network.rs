@@ -4,11 +4,9 @@ use super::Sample;
 use crate::layer::Layer;
 use candle_core::{Device, Module, Result, Tensor, Var};
 use phase_model::random::Pcg64Mcg;
-use phase_simple::{
-    Dense,
-    strength::{FEATURES, Weights},
-};
+use phase_simple::strength::{FEATURES, Weights};
 use phase_statistics::{mean, population_variance};
+use phase_tensors::Dense;
 
 /// Standardises values to mean 0 and standard deviation 1, and back.
 #[derive(Clone, Debug)]

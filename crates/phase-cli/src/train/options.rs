@@ -14,6 +14,8 @@ pub enum Train {
     Strength(Options),
     /// The intent network of SIMPLE: a guess at goals and attitudes from motion alone
     IntentNetwork(NetworkOptions),
+    /// The policy network of our own minds: what a search would choose, learnt from the searches of events
+    Policy(NetworkOptions),
     /// 2-Level LSTM, a baseline for goals and relations
     TwoLevelLstm(NetworkOptions),
     /// Actor relation graph, a baseline for goals and relations
@@ -79,6 +81,7 @@ impl Train {
         match self {
             Self::Strength(options) => (Trainee::Strength, options, None),
             Self::IntentNetwork(it) => (Trainee::IntentNetwork, &it.options, it.rounds),
+            Self::Policy(it) => (Trainee::Policy, &it.options, it.rounds),
             Self::TwoLevelLstm(it) => (Trainee::TwoLevelLstm, &it.options, it.rounds),
             Self::Arg(it) => (Trainee::Arg, &it.options, it.rounds),
             Self::SocialGnn(it) => (Trainee::SocialGnn, &it.options, it.rounds),

@@ -9,6 +9,8 @@ use phase_baselines::{
 };
 use phase_event::ObservedError;
 use phase_files::{FileError, WriteError};
+use phase_model::json::FieldError;
+use phase_pomcp::PomcpError;
 use phase_simple::strength::WeightsError;
 use std::path::PathBuf;
 use thiserror::Error;
@@ -75,6 +77,28 @@ pub enum TrainError {
         /// Why.
         source: UnknownHypothesis,
     },
+    /// An event has no searches by our own minds.
+    #[error("event {id}: must be simulated by phase minds, whose searches are to be learnt")]
+    NoThoughts {
+        /// The event.
+        id: String,
+    },
+    /// The settings of an event cannot be read.
+    #[error("event {id}: {source}")]
+    Settings {
+        /// The event.
+        id: String,
+        /// Why.
+        source: FieldError,
+    },
+    /// A search failed.
+    #[error("event {id}: {source}")]
+    Search {
+        /// The event.
+        id: String,
+        /// Why.
+        source: PomcpError,
+    },
     /// The checkpoint of a training cannot be used.
     #[error("{}: {source}; give the options of that training, choose another file or remove this one", file.display())]
     Checkpoint {
@@ -118,6 +142,9 @@ impl TrainError {
             | Self::TooFewEvents { .. }
             | Self::UnknownId { .. }
             | Self::Observed { .. }
+            | Self::NoThoughts { .. }
+            | Self::Settings { .. }
+            | Self::Search { .. }
             | Self::Label { .. }
             | Self::Hypothesis { .. }
             | Self::Checkpoint { .. }

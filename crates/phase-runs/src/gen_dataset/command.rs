@@ -3,7 +3,7 @@
 use super::Generation;
 use crate::effort::{Effort, MindChoice};
 use phase_dataset::form::StimulusForm;
-use phase_minds::{Foresight, MindKind, PARTICLES, SIMULATIONS};
+use phase_minds::{Foresight, MindKind, PARTICLES, Prior, SIMULATIONS};
 use phase_model::{
     arena::STEP_VIDEO_SECONDS,
     setting::{EVENT_STEPS, EVENTS, Setting},
@@ -55,8 +55,15 @@ impl Generation {
 
     /// Sets the value of an option; `None` if there is no such option or value.
     fn set(&mut self, option: &str, value: &str) -> Option<()> {
-        let Effort { engine, minds: MindChoice { kind, .. }, foresight, particles, simulations, max_steps } =
-            &mut self.effort;
+        let Effort {
+            engine,
+            minds: MindChoice { kind, .. },
+            foresight,
+            prior,
+            particles,
+            simulations,
+            max_steps,
+        } = &mut self.effort;
         match option {
             "--seconds" => self.form.steps = Some(steps_of(value)?),
             "--size" => self.form.size = value.parse().ok()?,
@@ -69,6 +76,7 @@ impl Generation {
             "--engine" => *engine = Some(Engine::named(value)?),
             "--minds" => *kind = Some(MindKind::ALL.into_iter().find(|kind| kind.name() == value)?),
             "--foresight" => *foresight = Some(Foresight::ALL.into_iter().find(|it| it.name() == value)?),
+            "--prior" => *prior = Some(Prior::ALL.into_iter().find(|it| it.name() == value)?),
             "--particles" => *particles = Some(number(&PARTICLES, value)?),
             "--simulations" => *simulations = Some(number(&SIMULATIONS, value)?),
             "--max-steps" => *max_steps = Some(number(&EVENT_STEPS, value)?),
@@ -99,7 +107,7 @@ mod tests {
     fn a_command_is_followed_exactly_as_it_was_written() {
         let plain = "phase gen-dataset --preset demo --events 12 --seed 7";
         let every = "phase gen-dataset --preset demo --events 2 --seed 1 --engine forward --minds published --one-way-turns \
-                     --foresight exact --particles 4 --simulations 20 --max-steps 6 --seconds 7.5 --size 600 --palette accessible --frame-rate 60 --no-video --date-published 2026-11-23";
+                     --foresight exact --prior network --particles 4 --simulations 20 --max-steps 6 --seconds 7.5 --size 600 --palette accessible --frame-rate 60 --no-video --date-published 2026-11-23";
         for command in [plain, every] {
             let generation = Generation::of_command(command).expect(command);
             let events = generation.events.expect("events");

@@ -15,6 +15,7 @@ use phase_baselines::{
     forecasting,
     intent_network::{self, IntentNetwork, LabelledIntents},
     nodes::Nodes,
+    policy::{self, Decisions, PolicyNetwork},
     recognition::{self, LabelledEvent},
     social_gnn::{self, SocialGnn},
     social_lstm::SocialLstm,
@@ -22,6 +23,8 @@ use phase_baselines::{
     two_level_lstm::TwoLevelLstm,
 };
 use phase_event::{ObservedEvent, Recording};
+use phase_minds::MindParameters;
+use phase_sim::SimulationSettings;
 use serde_json::Value;
 use std::path::PathBuf;
 
@@ -32,6 +35,8 @@ pub enum Trainee {
     Strength,
     /// The intent network of SIMPLE: a guess at goals and attitudes from motion alone.
     IntentNetwork,
+    /// The policy network of our own minds: what a search would choose.
+    Policy,
     /// 2-Level LSTM, for goals and relations.
     TwoLevelLstm,
     /// Actor relation graph, for goals and relations.
@@ -88,6 +93,7 @@ impl Training {
             Trainee::IntentNetwork => {
                 network::run::<IntentNetwork>(self, listener, intent_network::SETTINGS, intents)
             }
+            Trainee::Policy => network::run::<PolicyNetwork>(self, listener, policy::SETTINGS, decisions),
             Trainee::TwoLevelLstm => {
                 network::run::<TwoLevelLstm>(self, listener, recognition::SETTINGS, labelled)
             }
@@ -102,6 +108,18 @@ impl Training {
 fn intents(recording: &Recording, observed: &ObservedEvent) -> Result<LabelledIntents, TrainError> {
     LabelledIntents::new(observed, recording.scene.goals(), recording.scene.attitudes())
         .map_err(|source| TrainError::Hypothesis { id: recording.id.clone(), source })
+}
+
+fn decisions(recording: &Recording, observed: &ObservedEvent) -> Result<Decisions, TrainError> {
+    let id = || recording.id.clone();
+    let simulation = recording.simulation.as_ref().ok_or_else(|| TrainError::NoThoughts { id: id() })?;
+    let settings = SimulationSettings::read(&simulation.settings, "settings")
+        .map_err(|source| TrainError::Settings { id: id(), source })?;
+    let MindParameters::Phase(parameters) = settings.minds else {
+        return Err(TrainError::NoThoughts { id: id() });
+    };
+    Decisions::of(&simulation.event, observed, parameters)
+        .map_err(|source| TrainError::Search { id: id(), source })
 }
 
 fn labelled(recording: &Recording, observed: &ObservedEvent) -> Result<LabelledEvent, TrainError> {

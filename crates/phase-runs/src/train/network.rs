@@ -4,6 +4,7 @@ use super::{Trained, Training, events::Events, training_files::TrainingFiles};
 use crate::{
     error::{RunError, train::TrainError},
     listener::Listener,
+    parallel::{make_all, threads},
 };
 use phase_baselines::training::{
     Final, Metrics, NamedMetrics, NetworkError, PublishedNetwork, Round, TrainingRun, TrainingSettings,
@@ -19,22 +20,29 @@ pub(super) fn run<N: PublishedNetwork>(
     options: &Training,
     listener: &dyn Listener,
     mut settings: TrainingSettings,
-    sample: impl Fn(&Recording, &ObservedEvent) -> Result<N::Sample, TrainError>,
-) -> Result<Trained, RunError> {
+    sample: impl Fn(&Recording, &ObservedEvent) -> Result<N::Sample, TrainError> + Sync,
+) -> Result<Trained, RunError>
+where
+    N::Sample: Send,
+{
     settings.rounds = options.rounds.unwrap_or(settings.rounds);
     let events = Events::open(options)?;
-    let samples = |split| -> Result<Vec<N::Sample>, TrainError> {
-        let each = |recording: Result<Recording, TrainError>| {
-            let recording = recording?;
-            let observed = recording
-                .observed()
-                .map_err(|source| TrainError::Observed { id: recording.id.clone(), source })?;
-            sample(&recording, &observed)
-        };
-        events.of(split)?.map(each).collect()
+    let samples = |split| -> Result<Vec<N::Sample>, RunError> {
+        let recordings: Vec<Recording> = events.of(split)?.collect::<Result<_, _>>()?;
+        let activity = format!("reading {} events", split.name());
+        let progress = listener.progress(&activity, recordings.len(), 1);
+        let made = make_all(threads(None), recordings.len(), |k| {
+            let recording = &recordings[k];
+            let id = || recording.id.clone();
+            let observed =
+                recording.observed().map_err(|source| TrainError::Observed { id: id(), source })?;
+            let sample = sample(recording, &observed)?;
+            progress.event(0, &recording.id);
+            Ok(Some(sample))
+        })?;
+        made.ok_or_else(|| RunError::Interrupted(options.out.clone()))
     };
     events.check()?;
-    listener.note("reading the events");
     let training = samples(Split::Train)?;
     let validation = samples(Split::Validation)?;
     let network = N::published(&mut TrainingRun::<N>::first_weights(options.seed)).map_err(failed)?;

@@ -1,7 +1,7 @@
 //! The intent network on disk: a safetensors file.
 
 use super::{FEATURES, IntentNetwork, OUTPUTS};
-use crate::dense::Dense;
+use phase_tensors::Dense;
 use phase_tensors::{TensorFile, TensorsError, check_shape};
 use thiserror::Error;
 

@@ -3,13 +3,13 @@
 use super::{FEATURES, GoalFeatures, IntentNetworkError};
 use crate::{
     Intent, Posterior,
-    dense::{Dense, relu},
     intent::{WeightedIntents, joint_logs},
     physical_goals,
 };
 use phase_event::ObservedEvent;
 use phase_model::{AGENT_COUNT, AgentId, Attitude, Body, MAX_ENTITIES, Strength};
 use phase_statistics::logistic;
+use phase_tensors::{Dense, relu};
 use std::sync::Arc;
 
 /// Outputs for a goal: its owner pursues it, the other helps the owner, the other hinders it.

@@ -1,7 +1,7 @@
 //! The strength regressor on disk: a safetensors file.
 
 use super::{StrengthRegressor, Weights, WeightsError};
-use crate::dense::{Dense, vector};
+use phase_tensors::{Dense, vector};
 use phase_tensors::{TensorFile, write};
 
 /// The value of the field `format` of the file's metadata.

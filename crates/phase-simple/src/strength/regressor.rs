@@ -1,9 +1,9 @@
 //! The paper's estimate of strengths: a network with two hidden layers (appendix, "Bottom-up Proposals").
 
 use super::{FEATURES, StrengthCue, UniformStrength, Weights, WeightsError, features};
-use crate::dense::relu;
 use phase_model::{AgentId, Body, MAX_ENTITIES, Size, Strength};
 use phase_statistics::log_softmax;
+use phase_tensors::relu;
 
 /// Estimates an agent's maximum force from its speeds and accelerations.
 ///

@@ -1,7 +1,7 @@
 //! Weights of the strength regressor and their constraints.
 
 use super::FEATURES;
-use crate::dense::Dense;
+use phase_tensors::Dense;
 use phase_tensors::{NamedTensor, TensorsError, check_shape};
 use thiserror::Error;
 
