@@ -2,8 +2,8 @@
 
 #[cfg(feature = "networks")]
 pub mod train;
+pub mod video;
 
-use crate::track::VideoError;
 #[cfg(feature = "networks")]
 use phase_baselines::training::{NetworkError, TrainingRecordError};
 use phase_dataset::ExportError;
@@ -19,6 +19,7 @@ use std::path::{Path, PathBuf};
 use thiserror::Error;
 #[cfg(feature = "networks")]
 use train::TrainError;
+use video::VideoError;
 
 /// Why a run failed. The text is one plain sentence that names the file or the event.
 #[derive(Debug, Error)]

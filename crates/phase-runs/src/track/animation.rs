@@ -11,7 +11,7 @@ pub(super) fn track(file: File) -> Result<Track, VideoError> {
     let mut options = DecodeOptions::new();
     options.set_color_output(ColorOutput::RGBA);
     let mut decoder = options.read_info(BufReader::new(file)).map_err(failed)?;
-    let (width, height) = (usize::from(decoder.width()), usize::from(decoder.height()));
+    let [width, height] = [decoder.width(), decoder.height()].map(usize::from);
     if width.max(height) > MOST_PIXELS_ACROSS {
         return Err(TrackError::Size { width, height }.into());
     }
@@ -20,9 +20,10 @@ pub(super) fn track(file: File) -> Result<Track, VideoError> {
     let mut hundredths = 0_u64;
     while let Some(frame) = decoder.read_next_frame().map_err(failed)? {
         let before = (frame.dispose == DisposalMethod::Previous).then(|| canvas.clone());
-        let (left, top, across) = (usize::from(frame.left), usize::from(frame.top), usize::from(frame.width));
+        let [left, top, across] = [frame.left, frame.top, frame.width].map(usize::from);
         let area = frame.buffer.chunks_exact(4).enumerate().map(|(k, pixel)| {
-            let (x, y) = (left + k % across.max(1), top + k / across.max(1));
+            let x = left + k % across.max(1);
+            let y = top + k / across.max(1);
             ((x < width && y < height).then_some(3 * (y * width + x)), pixel)
         });
         for (place, pixel) in area.clone() {

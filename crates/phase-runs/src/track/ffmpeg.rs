@@ -39,7 +39,8 @@ pub(super) fn track(path: &Path, why: String) -> Result<Track, VideoError> {
         return Err(TrackError::Size { width: size.0, height: size.1 }.into());
     }
     let area = size.0 * size.1;
-    let (mut planes, mut rgb) = (vec![0; 3 * area], vec![0; 3 * area]);
+    let mut planes = vec![0; 3 * area];
+    let mut rgb = vec![0; 3 * area];
     let mut follower = Follower::default();
     let mut frame = 0;
     while line(&mut pipe)?.is_some_and(|line| line.starts_with("FRAME")) {

@@ -5,37 +5,12 @@ mod ffmpeg;
 mod mp4;
 mod pictures;
 
+pub use crate::error::video::VideoError;
 use crate::{error::RunError, interrupt::requested};
 use phase_event::{ObservedEvent, Tracking, check_id};
 use phase_files::{FileError, Problem, regular};
-use phase_track::{FrameMeaning, Picture, Roles, TableOptions, Track, TrackError, Tracker};
-use std::{
-    io,
-    path::{Path, PathBuf},
-};
-use thiserror::Error;
-
-/// Why a video cannot be tracked.
-#[derive(Debug, Error)]
-pub enum VideoError {
-    /// Its pictures show nothing that can be tracked.
-    #[error(transparent)]
-    Track(#[from] TrackError),
-    /// It is none, or damaged.
-    #[error("is no video that can be read: {0}")]
-    Unreadable(String),
-    /// The program `ffmpeg` is needed to decode it, and is not there.
-    #[error(
-        "{0}; other videos than H.264 in .mp4, PNG and GIF need the program ffmpeg, which is not installed"
-    )]
-    NoFfmpeg(String),
-    /// Reading failed.
-    #[error("cannot be read: {0}")]
-    Io(#[from] io::Error),
-    /// A stop was requested.
-    #[error("was not read to its end")]
-    Interrupted,
-}
+use phase_track::{FrameMeaning, Picture, Roles, TableOptions, Track, Tracker};
+use std::path::{Path, PathBuf};
 
 /// Tracks H.264 in an .mp4, without the help of other programs.
 ///
@@ -54,22 +29,22 @@ pub struct TrackRun {
     pub id: Option<String>,
     /// Frames a second of a folder of pictures.
     pub frame_rate: f64,
-    /// What frames show; found out if absent.
+    /// Meaning of frames; found out if absent.
     pub meaning: Option<FrameMeaning>,
-    /// Which body is which, if it is given.
+    /// The roles of bodies, if they are given.
     pub roles: Option<Roles>,
     /// Columns, rate and scale of a table.
     pub table: TableOptions,
 }
 
-/// What a run has read.
+/// An event that a run has read.
 #[derive(Clone, Debug)]
 pub struct Tracked {
     /// Name of the event.
     pub id: String,
     /// The event.
     pub observed: ObservedEvent,
-    /// How well it was measured.
+    /// The errors with which it was measured.
     pub tracking: Tracking,
 }
 

@@ -54,7 +54,8 @@ pub(super) fn track(file: File) -> Result<Track, VideoError> {
     let configuration = DecoderConfig::new().flush_after_decode(Flush::NoFlush);
     let mut decoder = Decoder::with_api_config(OpenH264API::from_source(), configuration).map_err(failed)?;
     decoder.decode(&parameters).map_err(failed)?;
-    let (mut sample, mut packet) = (Vec::new(), Vec::new());
+    let mut sample = Vec::new();
+    let mut packet = Vec::new();
     for Sample { offset, size, .. } in samples {
         if *size > LARGEST_SAMPLE || offset.checked_add(*size).is_none_or(|end| end > length) {
             return Err(unreadable("it ends before its last picture".into()));

@@ -42,7 +42,7 @@ fn read(file: BufReader<std::fs::File>, rgb: &mut Vec<u8>) -> Result<(usize, usi
     let mut decoder = Decoder::new(file);
     decoder.set_transformations(Transformations::normalize_to_color8());
     let mut reader = decoder.read_info().map_err(failed)?;
-    let (width, height) = (reader.info().width as usize, reader.info().height as usize);
+    let [width, height] = [reader.info().width, reader.info().height].map(|side| side as usize);
     if width.max(height) > MOST_PIXELS_ACROSS {
         return Err(TrackError::Size { width, height }.into());
     }
