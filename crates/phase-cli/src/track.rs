@@ -1,7 +1,7 @@
 //! `track`: motion of bodies in videos, pictures or tables.
 
 use crate::{error::CliError, interrupt, named::named, output::Output};
-use clap::Args;
+use clap::{Args, value_parser};
 use phase_event::observed_to_json;
 use phase_files::{atomic, told};
 use phase_model::{Flip, Layout, Size};
@@ -23,17 +23,17 @@ pub struct TrackOptions {
     #[arg(long, value_name = "ID")]
     pub id: Option<String>,
     /// Pictures a second in folders of PNG pictures, 8 to 240
-    #[arg(long, value_name = "N", default_value_t = 20, value_parser = clap::value_parser!(u32).range(8..=240))]
+    #[arg(long, value_name = "N", default_value_t = 20, value_parser = value_parser!(u32).range(8..=240))]
     pub frame_rate: u32,
-    /// What frames show: the motion itself, or rows with bodies drawn straight from row to row [default: what
-    /// the motion looks like]
+    /// Meaning of frames: the motion itself, or rows with bodies drawn straight from row to row [default:
+    /// what the motion looks like]
     #[arg(long, value_name = "KIND", value_parser = named(MEANINGS, name_of))]
     pub frames: Option<FrameMeaning>,
     /// The colours of agent 0, agent 1 and the objects, as #rrggbb or by name, with commas between
     /// [default: reddish agent and bluish object first]
     #[arg(long, value_name = "COLOURS", value_parser = Roles::read)]
     pub map: Option<Roles>,
-    /// How tables are read.
+    /// Meaning of tables.
     #[command(flatten)]
     pub table: TableArguments,
     /// Form in which the result is printed.
@@ -41,7 +41,7 @@ pub struct TrackOptions {
     pub output: Output,
 }
 
-/// How tables are read.
+/// Options with which tables are read.
 #[derive(Args, Debug)]
 #[command(next_help_heading = "Tables")]
 pub struct TableArguments {
@@ -168,7 +168,7 @@ pub fn run(arguments: &TrackOptions) -> Result<(), CliError> {
         .print(format!("{lines}{file}"), &json!({ "file": told(&arguments.out), "events": report }))
 }
 
-/// How well an event was measured, for people.
+/// The errors with which an event was measured, for people.
 fn line(tracked: &Tracked) -> String {
     let Tracked { id, observed, tracking } = tracked;
     let noise = tracking.noise;
@@ -188,7 +188,7 @@ fn line(tracked: &Tracked) -> String {
     )
 }
 
-/// The same for programs.
+/// The errors with which an event was measured, for programs.
 fn report(tracked: &Tracked) -> serde_json::Value {
     let Tracked { id, observed, tracking } = tracked;
     json!({

@@ -65,7 +65,7 @@ pub struct Recording {
     pub trajectory: Trajectory,
     /// The actions of the first steps, where they are known for a measured event.
     pub recovered_actions: Option<Recovered>,
-    /// How it was measured, if it was read from a video or table.
+    /// The way in which it was measured, if it was read from a video or table.
     pub tracking: Option<Tracking>,
     /// The seed with which an event that is not yet simulated is to be simulated, so that several events can
     /// share their random draws. A simulated event has its seed in [`Recording::simulation`].

@@ -1,4 +1,4 @@
-//! How well the motion of an event was measured.
+//! The errors with which the motion of an event was measured.
 
 use crate::{COLUMNS, Row};
 use phase_model::json::{Field, FieldError};
@@ -15,7 +15,7 @@ pub struct Noise {
     pub angle: f32,
 }
 
-/// How an event was measured that was read from a video or table: the member `tracking` of its file.
+/// Measurement of an event that was read from a video or table: the member `tracking` of its file.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Tracking {
     /// The errors on the whole.

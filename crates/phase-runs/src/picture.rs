@@ -107,11 +107,11 @@ fn at_rate<'a>(
     items: impl Iterator<Item = RenderedState<'a>>,
     frame_rate: u32,
 ) -> impl Iterator<Item = RenderedState<'a>> {
-    let (rate, substeps) = (u64::from(frame_rate), u64::from(FRAMES_PER_SECOND));
+    let [rate, substeps] = [frame_rate, FRAMES_PER_SECOND].map(u64::from);
     let mut items = items.peekable();
     let mut current = items.next();
-    // Number of the current item, and of the next frame.
-    let (mut at, mut number) = (0, 0);
+    let mut at = 0; // number of the current item
+    let mut number = 0; // of the next frame
     core::iter::from_fn(move || {
         while number * substeps / rate > at {
             current = items.next();

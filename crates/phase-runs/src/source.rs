@@ -36,7 +36,7 @@ pub(crate) fn labels_and_rows(recording: &Recording) -> Result<Value, RunError> 
 pub struct SeenEvent<'a> {
     /// Its name.
     pub id: Cow<'a, str>,
-    /// What a viewer sees of it.
+    /// The part of it that a viewer sees.
     pub observed: Cow<'a, ObservedEvent>,
     /// All of it, if it has labels.
     pub recording: Option<Cow<'a, Recording>>,
@@ -103,7 +103,7 @@ impl SeenInput {
 }
 
 impl<'a> SeenEvent<'a> {
-    /// What only a simulated event has.
+    /// The data that only a simulated event has.
     #[must_use]
     pub fn simulation(&self) -> Option<&SimulationRecord> {
         self.recording.as_ref()?.simulation.as_ref()

@@ -9,7 +9,7 @@ use phase_model::{
     arena::{self, LANDMARK_HALF_SIDE, LANDMARKS},
 };
 
-/// Where the arena is in the picture.
+/// Place and scale of the arena in the picture.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct View {
     /// Pixels of a world unit.
@@ -56,7 +56,7 @@ impl View {
     }
 }
 
-/// What does not move in a picture.
+/// The parts of a picture that do not move.
 #[derive(Clone, Debug)]
 pub(crate) struct Stage {
     pub(crate) view: View,
@@ -189,7 +189,9 @@ fn main_colour(picture: &Picture<'_>, view: View, is_part: impl Fn(Vec2) -> bool
     }
     let most = (0..counts.len()).max_by_key(|&bin| counts[bin]).unwrap_or(0);
     let middle = [most / 256, most / 16 % 16, most % 16].map(|level| level as f32 * 16.0);
-    let (mut sum, mut squares, mut count) = ([0.0_f64; 3], 0.0_f64, 0.0_f64);
+    let mut sum = [0.0_f64; 3];
+    let mut squares = 0.0_f64;
+    let mut count = 0.0_f64;
     for colour in pixels().map(|(x, y)| picture.at(x, y)).filter(|&colour| distance(colour, middle) < 30.0) {
         for (sum, channel) in sum.iter_mut().zip(colour) {
             *sum += f64::from(channel);

@@ -129,7 +129,8 @@ fn commonest(pixels: &[(Vec2, Rgb)]) -> Option<Rgb> {
 }
 
 fn mean(colours: impl Iterator<Item = Rgb>) -> Rgb {
-    let (mut sum, mut count) = ([0.0; 3], 0.0_f32);
+    let mut sum = [0.0; 3];
+    let mut count = 0.0_f32;
     for colour in colours {
         sum = [0, 1, 2].map(|k| sum[k] + colour[k]);
         count += 1.0;

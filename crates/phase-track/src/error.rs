@@ -45,9 +45,9 @@ pub enum TrackError {
     Lost {
         /// Its colour.
         colour: String,
-        /// When it disappeared (s).
+        /// Time at which it disappeared (s).
         start: f64,
-        /// How long it was not found (s).
+        /// Time for which it was not found (s).
         seconds: f64,
     },
     /// Time does not go on evenly.

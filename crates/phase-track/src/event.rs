@@ -4,7 +4,7 @@ use crate::{BodyRows, Form, FrameMeaning, Track, TrackError};
 use phase_event::{Noise, ObservedEvent, Row, Tracking};
 use phase_model::{AGENT_COUNT, Body, MAX_ENTITIES, Size, Vec2, arena};
 
-/// Which bodies are agents 0 and 1 and objects 0 and 1, by their colours.
+/// Roles of bodies, by their colours: agents 0 and 1, then objects 0 and 1.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Roles {
     /// Red, green and blue of each: two agents, and as many objects as there are.

@@ -30,7 +30,7 @@ pub(crate) struct Fit {
     pub(crate) visible: f32,
 }
 
-/// What a body is compared with.
+/// The picture and the other bodies with which a body is compared.
 pub(crate) struct Surroundings<'a> {
     pub(crate) picture: &'a Picture<'a>,
     /// The picture without bodies.
@@ -111,7 +111,8 @@ impl Surroundings<'_> {
     /// sizes apart.
     pub(crate) fn mismatch(&self, body: &Appearance, pose: &Pose, centre: Vec2) -> f32 {
         let soft = SHARP / self.view.scale;
-        let (mut sum, mut count) = (0.0, 0.0_f32);
+        let mut sum = 0.0;
+        let mut count = 0.0_f32;
         for sample in self.samples(centre, 3.2, 2) {
             let look = body.over(sample.under, local(pose, sample.point), soft);
             sum += square(sample.seen, look).min(OUTLIER * OUTLIER);
@@ -136,7 +137,8 @@ impl Surroundings<'_> {
         let units = [delta, delta, turn];
         let mut matrix = [[0.0_f64; 3]; 3];
         let mut vector = [0.0_f64; 3];
-        let (mut squares, mut weights) = (0.0_f64, 0.0_f64);
+        let mut squares = 0.0_f64;
+        let mut weights = 0.0_f64;
         for sample in samples {
             let look = |k: usize| {
                 let (position, rotation) = frames[k];
@@ -188,11 +190,12 @@ impl Surroundings<'_> {
         shift.length().max(turned.abs() * body.radius)
     }
 
-    /// How well the pose explains the picture.
+    /// Measures to what extent the pose explains the picture.
     fn judge(&self, body: &Appearance, samples: &[Sample], fit: &mut Fit) {
         let soft = SHARP / self.view.scale;
         let rotation = Vec2::from_angle(-fit.pose.angle);
-        let (mut sum, mut count) = (0.0, 0.0);
+        let mut sum = 0.0;
+        let mut count = 0.0;
         for sample in samples {
             let local = rotation.rotate(sample.point - fit.pose.position);
             if body.cover(local, soft) > 0.5 {
@@ -216,8 +219,8 @@ pub(crate) fn local(pose: &Pose, point: Vec2) -> Vec2 {
 /// The inverse of a symmetric matrix; of zeros where it has none.
 fn inverse(m: &[[f64; 3]; 3]) -> [[f64; 3]; 3] {
     let cofactor = |row: usize, column: usize| {
-        let (r, s) = ((row + 1) % 3, (row + 2) % 3);
-        let (c, d) = ((column + 1) % 3, (column + 2) % 3);
+        let [r, s] = [1, 2].map(|k| (row + k) % 3);
+        let [c, d] = [1, 2].map(|k| (column + k) % 3);
         m[r][c] * m[s][d] - m[r][d] * m[s][c]
     };
     let determinant: f64 = (0..3).map(|k| m[0][k] * cofactor(0, k)).sum();

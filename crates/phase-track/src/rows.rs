@@ -7,7 +7,7 @@ use phase_model::{
     arena::{STEP_SECONDS, STEP_VIDEO_SECONDS, SUBSTEP_SECONDS, SUBSTEPS},
 };
 
-/// What a video's frames show.
+/// Meaning of a video's frames.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum FrameMeaning {
     /// The motion itself: a row is the mean over the five moments of its step.
@@ -32,11 +32,12 @@ type Reading = ([f64; 3], [f64; 3]);
 const STRAIGHT: f64 = 0.3;
 
 impl Track {
-    /// What the frames show, as far as the motion tells: whether paths bend at every frame, or only every
-    /// 0.25 s.
+    /// The meaning of the frames, as far as the motion tells: whether paths bend at every frame, or only
+    /// every 0.25 s.
     #[must_use]
     pub fn meaning(&self) -> FrameMeaning {
-        let (mut inside, mut at_rows) = ((0.0, 0), (0.0, 0));
+        let mut inside = (0.0, 0);
+        let mut at_rows = (0.0, 0);
         for body in 0..self.bodies.len() {
             for three in self.moments.windows(3) {
                 if three.iter().any(|moment| !moment.bodies[body].seen) {
@@ -111,7 +112,7 @@ impl Track {
                 }
                 FrameMeaning::Substeps => {
                     let (pose, deviation) = self.at(body, 0.0);
-                    // At a start from rest the velocity grows by as much in the first substep as in the second.
+                    // At a start from rest the velocity grows as much in the first substep as in the second.
                     let first = velocity(0.0, substep, f64::from(SUBSTEP_SECONDS));
                     let second = velocity(substep, 2.0 * substep, f64::from(SUBSTEP_SECONDS));
                     let start = [0, 1].map(|k| 2.0 * first[k] - second[k]);

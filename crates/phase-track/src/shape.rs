@@ -21,7 +21,7 @@ pub struct Pose {
     pub angle: f32,
 }
 
-/// What bodies look like in a video, beside their colours.
+/// The look of bodies in a video, beside their colours.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(crate) struct Look {
     /// Width of a dark outline inside the body's edge (u); 0 without.

@@ -21,7 +21,7 @@ const SLOW: f32 = 0.3;
 /// Standard deviation of an angle that is a heading (rad).
 const HEADING_DEVIATION: f32 = 0.5;
 
-/// How a table is to be read: one line for each body and time.
+/// Meaning of a table that has one line for each body and time.
 #[derive(Clone, PartialEq, Debug)]
 pub struct TableOptions {
     /// Names of the columns of time, body, x, y and, if there is one, angle (rad). In JSON a dot leads into
@@ -29,8 +29,8 @@ pub struct TableOptions {
     pub columns: [String; 5],
     /// Units of time a second, such as 25 for a column of frame numbers.
     pub rate: f64,
-    /// Which bodies are agents 0 and 1 and objects 0 and 1, by what the column says; without, the first four
-    /// in the order in which they appear.
+    /// The bodies that are agents 0 and 1 and objects 0 and 1, by what the column says; without, the first
+    /// four in the order in which they appear.
     pub bodies: Vec<String>,
     /// The rectangle that becomes the arena, as `[left, bottom, right, top]`; without, positions stay as they
     /// are if all lie inside of the arena, or are fitted into it.
@@ -205,7 +205,7 @@ fn scale(lines: &[Vec<Line>], options: &TableOptions) -> Result<(f64, [f64; 2]),
         return Ok((1.0, [0.0; 2]));
     }
     let (low, high, side) = if let Some([left, bottom, right, top]) = options.bounds {
-        let (a, b) = (up(bottom), up(top));
+        let [a, b] = [bottom, top].map(up);
         ([left, a.min(b)], [right, a.max(b)], f64::from(arena::SIDE))
     } else {
         let fold = |of: fn(f64, f64) -> f64, start: f64| {
@@ -258,7 +258,8 @@ fn rows(
     for t in 0..=steps {
         let seconds = |t: usize| start + t as f64 * STEP_VIDEO_SECONDS;
         let (position, angle) = at(seconds(t));
-        let (from, to) = (t.saturating_sub(1), (t + 1).min(steps));
+        let from = t.saturating_sub(1);
+        let to = (t + 1).min(steps);
         let velocity = (at(seconds(to)).0 - at(seconds(from)).0) / ((to - from) as f64 * STEP_SECONDS) as f32;
         if velocity.length() > SLOW {
             // An agent at angle 0 faces up.

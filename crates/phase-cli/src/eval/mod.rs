@@ -55,7 +55,7 @@ pub fn run(arguments: &Eval, context: &Context) -> Result<(), CliError> {
 /// Share of explained steps below which motion is said not to obey PHASE's physics.
 const LEAST_EXPLAINED: f64 = 0.5;
 
-/// What a method says of events without labels: the likeliest goals and relation of each.
+/// A method's answers to events without labels: the likeliest goals and relation of each.
 fn answers_text(answered: &[Answered], file: &Path) -> String {
     let names = PaletteName::default().palette().names;
     let mut text = String::new();

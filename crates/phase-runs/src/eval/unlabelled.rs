@@ -27,7 +27,7 @@ pub struct Answered {
     pub answer: Answer,
     /// CPU time that it took (s).
     pub cpu_seconds: f64,
-    /// What the method adds.
+    /// Details that the method adds.
     pub details: Value,
 }
 

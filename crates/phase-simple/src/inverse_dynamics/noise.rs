@@ -1,4 +1,4 @@
-//! How exactly rows say where bodies were.
+//! The errors with which rows say where bodies were.
 
 use phase_event::Noise;
 use phase_model::{AGENT_COUNT, MAX_ENTITIES};
