@@ -116,6 +116,7 @@ impl Rater {
     }
 
     /// Time of the rater's last sign.
+    #[cfg(feature = "store")]
     #[must_use]
     pub(crate) fn last_seen(&self) -> Millis {
         let answers = self.trials.iter().filter_map(|trial| trial.given.as_ref()).map(|given| given.at);
