@@ -93,7 +93,12 @@ fn main() {
     criterion.bench_function("agent/the policy network, given its features", |bencher| {
         let mut mind =
             Mind::new(&scene, AgentId::ZERO, forward(), PhaseParameters::default()).expect("good parameters");
-        let belief = BeliefView { particles: &[state], observed: observation.observed, last_action: None };
+        let belief = BeliefView {
+            particles: &[state],
+            suppositions: &[],
+            observed: observation.observed,
+            last_action: None,
+        };
         let considered = mind.consider(belief).expect("something to choose");
         bencher
             .iter(|| PolicyNetwork::bundled().evaluate(black_box(&considered.features), considered.actions));

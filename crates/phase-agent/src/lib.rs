@@ -28,7 +28,7 @@
 //! let parameters = PhaseParameters { simulations: 100, ..PhaseParameters::default() };
 //! let mut mind = Mind::new(&scene, AgentId::ZERO, Forward::new(&physics), parameters)?;
 //! let observed = observed_set(&physics, &state, AgentId::ZERO);
-//! let belief = BeliefView { particles: &[state], observed, last_action: None };
+//! let belief = BeliefView { particles: &[state], observed, last_action: None, suppositions: &[] };
 //! let (action, thought) = mind.decide(belief, &mut stream(1, Purpose::Search, 0))?;
 //! assert_eq!(thought.subgoal.to_string(), "On(agent 0, landmark 1)");
 //! assert_eq!(action, Action::Up);
@@ -39,14 +39,21 @@
 #![deny(missing_docs)]
 
 pub mod action_set;
+mod ascription;
 mod habits;
+mod ignorance;
+mod matter;
 mod mind;
 pub mod objective;
 mod parameters;
 pub mod policy;
 pub mod rollout_policy;
 pub mod search_model;
+mod theory;
 
-pub use mind::{BeliefView, Consideration, Mind};
+pub use ascription::{AscribedPolicy, HabitPolicy, TheoryParameters};
+pub use matter::Consideration;
+pub use mind::{BeliefView, Mind};
 pub use parameters::{Foresight, PhaseParameters, Prior};
 pub use policy::PolicyNetwork;
+pub use theory::{Supposition, TheoryOfMind};

@@ -2,21 +2,26 @@
 
 use crate::{
     PhaseParameters, PolicyNetwork, Prior, action_set,
+    ascription::TheoryParameters,
+    ignorance::{Ignorance, Social, believed, commonest},
+    matter::{Consideration, Matter, Question, likeliest, localised, sample, summary_of, target_entity},
     objective::Objective,
-    policy::{Features, summary},
+    policy::summary,
     rollout_policy,
     search_model::{SearchModel, SearchState},
+    theory::{self, Supposition},
 };
 use phase_event::{ActionEvaluation, SubgoalValue, Thought};
 use phase_model::{
-    AGENT_COUNT, Action, AgentId, Attitude, BodySet, Dynamics, Entity, Goal, Literal, PhysicsConfig,
-    Predicate, PredicateTarget, Scene, State, Subgoal,
+    AGENT_COUNT, Action, AgentId, Attitude, BodySet, Dynamics, Entity, Goal, Level, Literal, PhysicsConfig,
+    Predicate, PredicateTarget, Scene, State, Strength, Subgoal,
     random::{Purpose, stream},
 };
 use phase_navigation::Navigator;
 use phase_planner::{Candidate, Plan, Planner, value};
 use phase_pomcp::{GenerativeModel, Pomcp, PomcpError, PomcpSettings};
-use rand::{Rng, RngExt};
+use rand::Rng;
+use std::collections::BTreeMap;
 
 /// One agent's goals and planners, with its own model of the dynamics. The belief is an argument of every
 /// decision, so inference can use a mind with estimated beliefs.
@@ -31,6 +36,8 @@ pub struct Mind<D> {
     planner: Planner,
     pomcp: Pomcp<u16>,
     navigator: Navigator,
+    /// The additional parts of a mind that does not know the other's.
+    ignorance: Option<Ignorance<D>>,
 }
 
 /// The belief state that a decision is based on.
@@ -42,31 +49,8 @@ pub struct BeliefView<'a> {
     pub observed: BodySet,
     /// The agent's own last action, if it has acted: action is a habit.
     pub last_action: Option<Action>,
-}
-
-/// A decision before it is made, as the policy network sees it.
-#[derive(Clone, Debug)]
-pub struct Consideration {
-    /// The subgoal pursued.
-    pub subgoal: Subgoal,
-    /// The actions to choose from, at least two.
-    pub actions: &'static [Action],
-    /// The network's input.
-    pub features: Features,
-    /// The action of the heuristic in the first particle.
-    pub heuristic: Action,
-    /// The prior weight of each action by habit in the first particle.
-    pub habits: Vec<f64>,
-}
-
-/// The matter of a search.
-struct Question {
-    subgoal: Subgoal,
-    subgoals: Vec<SubgoalValue>,
-    plan: Vec<Subgoal>,
-    actions: &'static [Action],
-    /// Possible states of the world, at least one.
-    roots: Vec<State>,
+    /// The supposition of each particle about the other; empty if the agent knows the other's goal.
+    pub suppositions: &'a [Supposition],
 }
 
 impl<D: Dynamics> Mind<D> {
@@ -109,7 +93,23 @@ impl<D: Dynamics> Mind<D> {
             pomcp,
             navigator: Navigator::new(scene.layout, parameters.navigation()),
             physics,
+            ignorance: None,
         })
+    }
+
+    /// This mind without knowledge of the other's, about which it reasons at a level. `dynamics` makes a
+    /// model of the world for bodies and walls.
+    #[must_use]
+    pub fn ignorant(mut self, level: Level, mut dynamics: impl FnMut(&PhysicsConfig) -> D) -> Self {
+        let world = |strength| {
+            let physics = theory::with_strength(self.physics.clone(), self.agent.other(), strength);
+            let dynamics = dynamics(&physics);
+            (physics, dynamics)
+        };
+        let worlds = Strength::ALL.into_iter().map(world).collect();
+        let theory = TheoryParameters::default();
+        self.ignorance = Some(Ignorance { level, theory, worlds, planners: BTreeMap::new(), watched: 0 });
+        self
     }
 
     /// The agent's model of the dynamics.
@@ -126,7 +126,14 @@ impl<D: Dynamics> Mind<D> {
         belief_view: BeliefView<'_>,
         random: &mut impl Rng,
     ) -> Result<(Action, Thought), PomcpError> {
-        let Some(question) = self.question(belief_view) else { return Ok((Action::Stop, Thought::IDLE)) };
+        let question = match self.question(belief_view) {
+            Matter::Nothing => return Ok((Action::Stop, Thought::IDLE)),
+            Matter::Watch(action, subgoals) => {
+                let intents = believed(belief_view.suppositions);
+                return Ok((action, Thought { subgoals, intents, ..Thought::IDLE }));
+            }
+            Matter::Search(question) => question,
+        };
         let (action, actions) = match question.actions {
             [only] => (*only, Vec::new()),
             _ => {
@@ -136,13 +143,16 @@ impl<D: Dynamics> Mind<D> {
             }
         };
         let Question { subgoal, subgoals, plan, .. } = question;
-        Ok((action, Thought { subgoal, subgoals, plan, actions }))
+        Ok((
+            action,
+            Thought { subgoal, subgoals, plan, actions, intents: believed(belief_view.suppositions) },
+        ))
     }
 
     /// The next decision as the policy network sees it, with the actions that it is about; `None` if there
     /// is nothing to choose. [`decide`](Self::decide) would search the same actions.
     pub fn consider(&mut self, belief_view: BeliefView<'_>) -> Option<Consideration> {
-        let question = self.question(belief_view)?;
+        let Matter::Search(question) = self.question(belief_view) else { return None };
         let Question { actions, subgoal, .. } = question;
         (actions.len() > 1).then(|| {
             self.with_model(belief_view, &question, |_, model, search_states| {
@@ -160,40 +170,119 @@ impl<D: Dynamics> Mind<D> {
         })
     }
 
-    /// The subgoal to pursue and what is to be searched for it; `None` if no particle proposes any.
-    fn question(&self, belief_view: BeliefView<'_>) -> Option<Question> {
+    /// The subgoal to pursue and what is to be searched for it.
+    fn question(&mut self, belief_view: BeliefView<'_>) -> Matter {
         let particles = belief_view.particles;
         let known =
             belief_view.observed.union(localised(&self.physics, particles, self.parameters.agreement));
-        let (plans, plan_of) = self.plans(particles, known);
+        let (plans, plan_of) = self.plans(belief_view, known);
         let by_particle: Vec<&Plan> = plan_of.iter().map(|&plan| &plans[plan]).collect();
         let candidates = value::candidates(&by_particle, self.parameters.lambda);
-        let best = candidates.first()?;
-        let search_particles = self.search_particles(belief_view, best, &by_particle);
-        Some(Question {
-            subgoal: best.subgoal,
-            subgoals: candidates.iter().map(summary_of).collect(),
-            plan: by_particle[search_particles[0]].subgoals.clone(),
-            actions: action_set::actions(self.agent, best.subgoal),
-            roots: search_particles.iter().map(|&particle| particles[particle]).collect(),
-        })
+        let subgoals: Vec<SubgoalValue> = candidates.iter().map(summary_of).collect();
+        let best = match &self.ignorance {
+            Some(ignorance) => {
+                let who = Social { agent: self.agent, attitude: self.attitude, physics: &self.physics };
+                ignorance.best(&who, particles, belief_view.suppositions, &candidates)
+            }
+            None => candidates.first(),
+        };
+        if let (Some(ignorance), false) = (&mut self.ignorance, candidates.is_empty()) {
+            ignorance.count_watching(best.is_none());
+        }
+        let Some(best) = best else {
+            return if candidates.is_empty() { Matter::Nothing } else { self.watch(belief_view, subgoals) };
+        };
+        let chosen = self.search_particles(belief_view, best, &by_particle);
+        let plan = by_particle[chosen[0]].subgoals.clone();
+        Matter::Search(self.search_for(belief_view, best.subgoal, subgoals, plan, chosen))
+    }
+
+    /// A search for a subgoal from some particles, at least one.
+    fn search_for(
+        &self,
+        belief_view: BeliefView<'_>,
+        subgoal: Subgoal,
+        subgoals: Vec<SubgoalValue>,
+        plan: Vec<Subgoal>,
+        particles: Vec<usize>,
+    ) -> Question {
+        let roots = particles.iter().map(|&particle| belief_view.particles[particle]).collect();
+        let actions = action_set::actions(self.agent, subgoal);
+        Question { subgoal, subgoals, plan, actions, particles, roots }
+    }
+
+    /// Keeps the other in view, or goes where it may be.
+    fn watch(&self, belief_view: BeliefView<'_>, subgoals: Vec<SubgoalValue>) -> Matter {
+        let other = Entity::Agent(self.agent.other());
+        let me = Entity::Agent(self.agent);
+        let particles = belief_view.particles;
+        if belief_view.observed.contains(other) {
+            let state = &particles[0];
+            let body = state.body(me);
+            let way = state.position(other) - body.position;
+            let bearing = libm::atan2f(body.forward().perp_dot(way), body.forward().dot(way));
+            let angle = self.ignorance.as_ref().map_or(0.0, |ignorance| ignorance.theory.watching_angle);
+            let action = match bearing {
+                bearing if bearing > angle => Action::TurnLeft,
+                bearing if bearing < -angle => Action::TurnRight,
+                _ => Action::Stop,
+            };
+            return Matter::Watch(action, subgoals);
+        }
+        let close = Predicate::Close(me, PredicateTarget::Entity(other));
+        // One place after another, as for any body out of sight: the nearest first.
+        let distance = |k: &usize| particles[*k].position(me).distance(particles[*k].position(other));
+        let nearest = (0..particles.len()).min_by(|a, b| distance(a).total_cmp(&distance(b)));
+        let Some(nearest) = nearest else { return Matter::Watch(Action::Stop, subgoals) };
+        let place = particles[nearest].position(other);
+        let near = |k: &usize| particles[*k].position(other).distance(place) <= self.parameters.colocation;
+        let mut chosen: Vec<usize> = (0..particles.len()).filter(near).collect();
+        if chosen.is_empty() {
+            chosen.push(nearest);
+        }
+        let subgoal = Subgoal::Achieve(Literal::is(close));
+        Matter::Search(self.search_for(belief_view, subgoal, subgoals, Vec::new(), chosen))
     }
 
     /// One plan for each distinct particle, and the index of each particle's plan. When everything is
-    /// observed all particles are equal and one plan suffices.
-    fn plans(&self, particles: &[State], known: BodySet) -> (Vec<Plan>, Vec<usize>) {
+    /// observed all particles are equal and one plan suffices, or one for each supposition.
+    fn plans(&mut self, belief_view: BeliefView<'_>, known: BodySet) -> (Vec<Plan>, Vec<usize>) {
+        let BeliefView { particles, suppositions, .. } = belief_view;
         let mut different: Vec<usize> = Vec::new();
         let mut plans = Vec::new();
         let mut plan_of = Vec::with_capacity(particles.len());
         for (k, particle) in particles.iter().enumerate() {
-            let seen = different.iter().position(|&other| particles[other] == *particle);
+            let same = |other: usize| {
+                particles[other] == *particle && suppositions.get(other) == suppositions.get(k)
+            };
+            let seen = different.iter().position(|&other| same(other));
             plan_of.push(seen.unwrap_or_else(|| {
                 different.push(k);
-                plans.push(self.planner.plan(particle, known));
+                plans.push(self.plan(particle, suppositions.get(k), known));
                 plans.len() - 1
             }));
         }
         (plans, plan_of)
+    }
+
+    /// The plan from a particle.
+    fn plan(&mut self, particle: &State, supposition: Option<&Supposition>, known: BodySet) -> Plan {
+        let (Some(ignorance), Some(supposition)) = (&mut self.ignorance, supposition) else {
+            return self.planner.plan(particle, known);
+        };
+        let planner = ignorance.planners.entry(*supposition).or_insert_with(|| {
+            let (physics, _) = &ignorance.worlds[usize::from(supposition.strength.level())];
+            let goals = theory::goals(self.agent, self.attitude, self.goals[self.agent], supposition.intent);
+            Planner::with_parameters(
+                physics.clone(),
+                self.navigator.map().layout(),
+                self.agent,
+                goals,
+                self.attitude,
+                self.parameters.planning(),
+            )
+        });
+        planner.plan(particle, known)
     }
 
     /// The particles used as roots of the search. If the subgoal's target is unobserved, only those that
@@ -236,20 +325,31 @@ impl<D: Dynamics> Mind<D> {
         let roots = &question.roots;
         let unobserved = self.unobserved_target(belief_view, question.subgoal);
         let other = self.agent.other();
-        let other_goal = Subgoal::Achieve(Literal::from(self.goals[other]));
-        let physics = &self.physics;
+        // The commonest supposition of these particles is that of the search.
+        let suppositions: Vec<Supposition> =
+            question.particles.iter().filter_map(|&k| belief_view.suppositions.get(k)).copied().collect();
+        let (physics, dynamics, goals) = match (&self.ignorance, commonest(&suppositions)) {
+            (Some(ignorance), Some(supposition)) => {
+                let (physics, dynamics) = &ignorance.worlds[usize::from(supposition.strength.level())];
+                let own = self.goals[self.agent];
+                let goals = theory::goals(self.agent, self.attitude, own, supposition.intent);
+                (physics, dynamics, goals)
+            }
+            _ => (&self.physics, &self.dynamics, self.goals),
+        };
+        let other_goal = Subgoal::Achieve(Literal::from(goals[other]));
         let parameters = &self.parameters;
         let navigator = &mut self.navigator;
         let objective =
             Objective::new(physics, navigator, &roots[0], self.agent, question.subgoal, parameters);
         let other_objective = Objective::new(physics, navigator, &roots[0], other, other_goal, parameters);
         let model = SearchModel {
-            dynamics: &self.dynamics,
+            dynamics,
             physics,
             objective,
             other_objective,
             actions: question.actions,
-            goals: self.goals,
+            goals,
             rewards_goals: !matches!(unobserved, Some(Entity::Object(_))),
             attitude: self.attitude,
             root_prior: Vec::new(),
@@ -296,61 +396,4 @@ impl<D: Dynamics> Mind<D> {
         let chosen = sample(&visits, decisiveness, random).unwrap_or(best);
         Ok((actions[chosen], evidence))
     }
-}
-
-/// Draws an index with a probability proportional to its visits to the power of `exponent`; `None` if all are
-/// zero.
-fn sample(visits: &[f64], exponent: f64, random: &mut impl Rng) -> Option<usize> {
-    let most = visits.iter().copied().fold(0.0, f64::max);
-    if most <= 0.0 {
-        return None;
-    }
-    let weights = visits.iter().map(|visits| libm::pow(visits / most, exponent));
-    let sum: f64 = weights.clone().sum();
-    if !sum.is_finite() {
-        return None;
-    }
-    let mut left = random.random_range(0.0..sum);
-    for (index, weight) in weights.enumerate() {
-        if left < weight {
-            return Some(index);
-        }
-        left -= weight;
-    }
-    None
-}
-
-/// The index of the greatest probability.
-fn likeliest(policy: &[f64]) -> usize {
-    let greatest = policy.iter().enumerate().max_by(|a, b| a.1.total_cmp(b.1));
-    greatest.map_or(0, |(index, _)| index)
-}
-
-/// The entity that a subgoal sends an agent to.
-fn target_entity(subgoal: Subgoal, agent: AgentId) -> Option<Entity> {
-    let Subgoal::Achieve(Literal { predicate, holds: true }) = subgoal else { return None };
-    match predicate {
-        Predicate::Close(who, PredicateTarget::Entity(entity)) if who == Entity::Agent(agent) => Some(entity),
-        Predicate::Touch(_, entity) => Some(entity),
-        Predicate::Attach(_, object) => Some(Entity::Object(object)),
-        _ => None,
-    }
-}
-
-fn summary_of(candidate: &Candidate) -> SubgoalValue {
-    SubgoalValue { subgoal: candidate.subgoal, value: candidate.value, particles: candidate.particles.len() }
-}
-
-/// Entities on whose position all particles agree, to within `agreement` (u). An agent need not verify the
-/// position of an object it has just put down.
-fn localised(physics: &PhysicsConfig, particles: &[State], agreement: f32) -> BodySet {
-    let mut known = BodySet::EMPTY;
-    let Some(first) = particles.first() else { return known };
-    for entity in physics.entities() {
-        let place = first.position(entity);
-        if particles.iter().all(|particle| particle.position(entity).distance(place) <= agreement) {
-            known.insert(entity);
-        }
-    }
-    known
 }

@@ -30,6 +30,7 @@ fn scene(position: Vec2, angle: f32) -> Scene {
         strength: Strength::Strong,
         goal,
         attitude: Attitude::Neutral,
+        awareness: phase_model::Awareness::default(),
         start: Body::at_rest(position, angle),
     };
     Scene {
@@ -163,8 +164,12 @@ fn decide(scene: &Scene, seed: u64) -> (Action, Subgoal) {
     let belief = Belief::new(&physics, &observation, parameters.particles, &mut random);
     let mut mind =
         Mind::new(scene, AgentId::ZERO, Forward::new(&physics), parameters).expect("good parameters");
-    let view =
-        BeliefView { particles: belief.particles(), observed: observation.observed, last_action: None };
+    let view = BeliefView {
+        particles: belief.particles(),
+        observed: observation.observed,
+        last_action: None,
+        suppositions: &[],
+    };
     let (action, thought) = mind.decide(view, &mut stream(seed, Purpose::Search, 0)).expect("a decision");
     (action, thought.subgoal)
 }

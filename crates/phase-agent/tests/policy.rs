@@ -26,7 +26,7 @@ fn mind(scene: &Scene, parameters: PhaseParameters) -> Mind<Forward> {
 }
 
 fn view<'a>(particles: &'a [State; 1], observed: BodySet) -> BeliefView<'a> {
-    BeliefView { particles, observed, last_action: None }
+    BeliefView { particles, suppositions: &[], observed, last_action: None }
 }
 
 fn considered(scene: &Scene) -> Consideration {

@@ -25,6 +25,7 @@ fn event(kind: EventKind, random: &mut Pcg64Mcg) -> Recording {
             sign: Sign::Positive,
         },
         attitude,
+        awareness: phase_model::Awareness::default(),
         start: body(random),
     };
     let first = match kind {

@@ -25,7 +25,7 @@ use phase_model::{
 };
 use phase_pomcp::PomcpError;
 use phase_sim::belief_view;
-use phase_simple::Intent;
+use phase_simple::{Hypothesis, Intent};
 use rand::{RngExt, seq::IndexedRandom};
 
 /// Units of the embedding of what all actions have in common.
@@ -95,7 +95,10 @@ impl Decisions {
             let intent = intents.choose(&mut random).filter(|_| k >= own);
             let scene = intent.map_or_else(
                 || event.scene.clone(),
-                |it| it.hypothesis(agent, event.scene.goals()[agent.other()], strengths).scene(observed),
+                |it| {
+                    Hypothesis::of_intent(*it, agent, event.scene.goals()[agent.other()], strengths)
+                        .scene(observed)
+                },
             );
             let mut mind = Mind::new(&scene, agent, Forward::new(&scene.physics()), parameters)?;
             let view = belief_view(event, agent, step, &beliefs[agent]);

@@ -81,6 +81,15 @@ impl Belief {
         }
     }
 
+    /// Puts for each particle one of them in its place, by its index, as resampling by weights of the
+    /// particles does.
+    ///
+    /// # Panics
+    /// If an index is not that of a particle.
+    pub fn resample(&mut self, indices: &[usize]) {
+        self.particles = indices.iter().map(|&k| self.particles[k]).collect();
+    }
+
     /// The agent whose belief it is.
     #[must_use]
     pub fn agent(&self) -> AgentId {

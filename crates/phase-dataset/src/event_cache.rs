@@ -1,10 +1,10 @@
 //! Finished events kept for a later run of the same program.
 
-use phase_event::{Event, Step, Thought};
+use phase_event::{BelievedIntent, Event, Step, Thought};
 use phase_files::{WriteError, cache::Cache};
 use phase_model::{
-    AGENT_COUNT, Action, AgentId, AgentSpec, Attitude, Body, EventKind, Flip, Goal, LandmarkId, Layout,
-    ObjectId, ObjectSpec, Scene, Sign, Size, State, Strength, arena::SUBSTEPS,
+    AGENT_COUNT, Action, AgentId, AgentSpec, Attitude, Awareness, Body, EventKind, Flip, Goal, Intent,
+    LandmarkId, Layout, ObjectId, ObjectSpec, Scene, Sign, Size, State, Strength, arena::SUBSTEPS,
 };
 use serde::{Deserialize, Serialize};
 use std::path::Path;
@@ -40,7 +40,7 @@ impl EventCache {
 #[derive(Serialize, Deserialize)]
 struct CachedEvent {
     layout: (u8, Option<u8>),
-    agents: [(u8, u8, CachedGoal, i8, Body); AGENT_COUNT],
+    agents: [(u8, u8, CachedGoal, i8, Awareness, Body); AGENT_COUNT],
     objects: Vec<(u8, Body)>,
     kind: EventKind,
     initial: State,
@@ -51,6 +51,8 @@ struct CachedEvent {
 struct CachedStep {
     actions: [Action; AGENT_COUNT],
     thoughts: [Thought; AGENT_COUNT],
+    /// Goal, α and particles of each intent that an agent believes the other to have.
+    intents: [Vec<(CachedGoal, i8, usize)>; AGENT_COUNT],
     substeps: [State; SUBSTEPS],
 }
 
@@ -69,7 +71,14 @@ impl CachedEvent {
             agents: scene.agents.map(|agent| {
                 let size = agent.size.level();
                 let strength = agent.strength.level();
-                (size, strength, CachedGoal::of(agent.goal), agent.attitude.alpha(), agent.start)
+                (
+                    size,
+                    strength,
+                    CachedGoal::of(agent.goal),
+                    agent.attitude.alpha(),
+                    agent.awareness,
+                    agent.start,
+                )
             }),
             objects: scene.objects.iter().map(|object| (object.size.level(), object.start)).collect(),
             kind: scene.kind,
@@ -82,12 +91,13 @@ impl CachedEvent {
         let (base, flip) = self.layout;
         let flip = flip.map(Flip::try_from).transpose().ok()?;
         let mut agents = Vec::with_capacity(AGENT_COUNT);
-        for (size, strength, goal, alpha, start) in self.agents {
+        for (size, strength, goal, alpha, awareness, start) in self.agents {
             agents.push(AgentSpec {
                 size: Size::from_level(size)?,
                 strength: Strength::from_level(strength)?,
                 goal: goal.into_goal()?,
                 attitude: Attitude::try_from(alpha).ok()?,
+                awareness,
                 start,
             });
         }
@@ -99,18 +109,32 @@ impl CachedEvent {
             kind: self.kind,
         };
         scene.validate().ok()?;
-        let steps = self.steps.into_iter().map(CachedStep::into_step).collect();
+        let steps = self.steps.into_iter().map(CachedStep::into_step).collect::<Option<_>>()?;
         Some(Event { scene, seed, initial: self.initial, steps })
     }
 }
 
 impl CachedStep {
     fn of(step: &Step) -> Self {
-        Self { actions: step.actions, thoughts: step.thoughts.clone(), substeps: step.substeps }
+        let of =
+            |it: &BelievedIntent| (CachedGoal::of(it.intent.goal), it.intent.attitude.alpha(), it.particles);
+        Self {
+            actions: step.actions,
+            thoughts: step.thoughts.clone(),
+            intents: step.thoughts.each_ref().map(|thought| thought.intents.iter().map(of).collect()),
+            substeps: step.substeps,
+        }
     }
 
-    fn into_step(self) -> Step {
-        Step { actions: self.actions, thoughts: self.thoughts, substeps: self.substeps }
+    fn into_step(mut self) -> Option<Step> {
+        for (thought, intents) in self.thoughts.iter_mut().zip(self.intents) {
+            for (goal, alpha, particles) in intents {
+                let attitude = Attitude::try_from(alpha).ok()?;
+                let intent = Intent { attitude, goal: goal.into_goal()? };
+                thought.intents.push(BelievedIntent { intent, particles });
+            }
+        }
+        Some(Step { actions: self.actions, thoughts: self.thoughts, substeps: self.substeps })
     }
 }
 

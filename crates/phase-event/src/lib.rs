@@ -61,7 +61,7 @@ pub use observed::{ObservedError, ObservedEvent};
 pub use read::{LONGEST_ID, check_id, from_json, is_labelled, parse, parse_observed};
 pub use recording::{Controller, Recording, Recovered, SimulationRecord};
 pub use subgoals::subgoal_of;
-pub use thought::{ActionEvaluation, SubgoalValue, Thought};
+pub use thought::{ActionEvaluation, BelievedIntent, SubgoalValue, Thought};
 pub use tracking::{Noise, Tracking};
 pub use trajectory::{COLUMNS, Row, SUBSTEP_COLUMNS, SubstepRow, Trajectory, substep_row};
 pub use warning::EventWarning;

@@ -1,15 +1,17 @@
 //! The data that a simulated event stores in addition to its trajectory.
 
 use crate::{
-    ActionEvaluation, Event, Row, SUBSTEP_COLUMNS, SimulationRecord, Step, SubgoalValue, Thought, Trajectory,
+    ActionEvaluation, BelievedIntent, Event, Row, SUBSTEP_COLUMNS, SimulationRecord, Step, SubgoalValue,
+    Thought, Trajectory,
     read::{columns, rows},
     subgoals::subgoal_of,
 };
 use phase_model::{
-    AGENT_COUNT, Action, Body, Contacts, Entity, Grip, MAX_ENTITIES, MAX_OBJECTS, ObjectId, Scene, Side,
-    State, Subgoal, Vec2,
+    AGENT_COUNT, Action, Body, Contacts, Entity, Grip, Intent, MAX_ENTITIES, MAX_OBJECTS, ObjectId, Scene,
+    Side, State, Subgoal, Vec2,
     arena::SUBSTEPS,
     json::{Field, FieldError, shown},
+    scene_json::{attitude, goal as goal_of},
 };
 use serde_json::Value;
 
@@ -210,7 +212,7 @@ fn pair(subgoals: &Field<'_>, thoughts: &Field<'_>) -> Result<[Thought; AGENT_CO
 }
 
 fn thought(subgoal: &Field<'_>, field: &Field<'_>) -> Result<Thought, FieldError> {
-    field.only(&["subgoals", "plan", "actions"])?;
+    field.only(&["subgoals", "plan", "actions", "intents"])?;
     let names = Action::ALL.map(|action| (action.name(), action));
     let proposed = |field: Field<'_>| {
         let parts: Vec<Field<'_>> = field.items()?.collect();
@@ -228,11 +230,24 @@ fn thought(subgoal: &Field<'_>, field: &Field<'_>) -> Result<Thought, FieldError
         let visits = visits.whole(0, u32::MAX.into())? as u32;
         Ok(ActionEvaluation { action: name.one_of(&names)?, visits, value: double(value)? })
     };
+    let believed = |field: Field<'_>| {
+        let parts: Vec<Field<'_>> = field.items()?.collect();
+        let [alpha, goal, particles] = &parts[..] else {
+            return Err(field.must_be("an alpha, a goal and its particles"));
+        };
+        let intent = Intent { attitude: attitude(alpha)?, goal: goal_of(goal)? };
+        let particles = particles.whole(0, i64::from(u32::MAX))? as usize;
+        Ok(BelievedIntent { intent, particles })
+    };
     Ok(Thought {
         subgoal: named(subgoal)?,
         subgoals: field.required("subgoals")?.items()?.map(proposed).collect::<Result<_, _>>()?,
         plan: field.required("plan")?.items()?.map(|text| named(&text)).collect::<Result<_, _>>()?,
         actions: field.required("actions")?.items()?.map(searched).collect::<Result<_, _>>()?,
+        intents: match field.optional("intents")? {
+            Some(intents) => intents.items()?.map(believed).collect::<Result<_, _>>()?,
+            None => Vec::new(),
+        },
     })
 }
 

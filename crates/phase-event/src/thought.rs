@@ -1,6 +1,6 @@
 //! Explanations of decisions, for the event record and for visualisation.
 
-use phase_model::{Action, Subgoal};
+use phase_model::{Action, Intent, Subgoal};
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
@@ -26,6 +26,15 @@ pub struct ActionEvaluation {
     pub value: f64,
 }
 
+/// An intent that an agent believes the other to have.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct BelievedIntent {
+    /// The intent.
+    pub intent: Intent,
+    /// Number of particles that have it.
+    pub particles: usize,
+}
+
 /// One decision of one agent, explained: the subgoal that it pursued, the subgoals that it considered, and
 /// the actions that it searched.
 ///
@@ -42,27 +51,49 @@ pub struct Thought {
     pub plan: Vec<Subgoal>,
     /// Every action searched, in the order of the action set; empty where no search was needed.
     pub actions: Vec<ActionEvaluation>,
+    /// The intents that the agent believes the other to have, the likeliest first; empty for an agent that
+    /// knows the other's goal.
+    #[serde(skip)]
+    pub intents: Vec<BelievedIntent>,
 }
 
 impl Thought {
     /// The thought of an idle agent.
-    pub const IDLE: Self =
-        Self { subgoal: Subgoal::Stay, subgoals: Vec::new(), plan: Vec::new(), actions: Vec::new() };
+    pub const IDLE: Self = Self {
+        subgoal: Subgoal::Stay,
+        subgoals: Vec::new(),
+        plan: Vec::new(),
+        actions: Vec::new(),
+        intents: Vec::new(),
+    };
 
     /// The thought as JSON with subgoals as people write them, such as `On(agent 0, landmark 1)`: `subgoal`,
-    /// `subgoals` with `value` and `particles`, `plan`, and `actions` with `visits` and `value`.
+    /// `subgoals` with `value` and `particles`, `plan`, `actions` with `visits` and `value`, and, of an agent
+    /// that does not know the other's goal, `intents` with `alpha`, `goal`, `words` and `probability`.
     #[must_use]
     pub fn described(&self) -> Value {
-        let Self { subgoal, subgoals, plan, actions } = self;
+        let Self { subgoal, subgoals, plan, actions, intents } = self;
         let proposed = subgoals.iter().map(
             |it| json!({ "subgoal": it.subgoal.to_string(), "value": it.value, "particles": it.particles }),
         );
-        json!({
+        let mut described = json!({
             "subgoal": subgoal.to_string(),
             "subgoals": proposed.collect::<Vec<_>>(),
             "plan": plan.iter().map(ToString::to_string).collect::<Vec<_>>(),
             "actions": actions,
-        })
+        });
+        if !intents.is_empty() {
+            let all: usize = intents.iter().map(|it| it.particles).sum();
+            let believed = intents.iter().map(|BelievedIntent { intent, particles }| {
+                let probability = *particles as f64 / all as f64;
+                json!({
+                    "alpha": intent.attitude.alpha(), "goal": intent.goal, "words": intent.to_string(),
+                    "probability": probability,
+                })
+            });
+            described["intents"] = believed.collect();
+        }
+        described
     }
 
     /// The value of the subgoal pursued; `None` if no particle proposed it.

@@ -6,7 +6,7 @@ use crate::{
     tracking::TrackingMembers, trajectory::row_of,
 };
 use phase_model::{
-    AGENT_COUNT, Action, Body, Contacts, Entity, EventKind, Layout, MAX_ENTITIES, ObjectSpec, Relation,
+    AGENT_COUNT, Action, Body, Contacts, Entity, EventKind, Goal, Layout, MAX_ENTITIES, ObjectSpec, Relation,
     Scene, State, Vec2,
     arena::{self, STEP_VIDEO_SECONDS},
     scene_json::{AgentMembers, ObjectMembers},
@@ -290,22 +290,27 @@ impl<'a> RecoveredMembers<'a> {
     }
 }
 
-/// A subgoal's text, value and particles; an action's name, visits and value.
+/// A subgoal's text, value and particles; an action's name, visits and value; an intent's α, goal and
+/// particles.
 #[derive(Serialize)]
 struct ThoughtMembers {
     subgoals: Vec<(String, f64, usize)>,
     plan: Vec<String>,
     actions: Vec<(&'static str, u32, f64)>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    intents: Vec<(i8, Goal, usize)>,
 }
 
 impl ThoughtMembers {
     fn of(thought: &Thought) -> Self {
         let proposed = thought.subgoals.iter();
         let searched = thought.actions.iter();
+        let believed = thought.intents.iter();
         Self {
             subgoals: proposed.map(|it| (it.subgoal.to_string(), it.value, it.particles)).collect(),
             plan: thought.plan.iter().map(ToString::to_string).collect(),
             actions: searched.map(|it| (it.action.name(), it.visits, it.value)).collect(),
+            intents: believed.map(|it| (it.intent.attitude.alpha(), it.intent.goal, it.particles)).collect(),
         }
     }
 }

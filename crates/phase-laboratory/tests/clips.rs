@@ -21,6 +21,7 @@ fn recording(steps: usize) -> Recording {
         strength: Strength::Fair,
         goal: goal(agent),
         attitude: Attitude::Neutral,
+        awareness: phase_model::Awareness::default(),
         start: Body::at_rest(Vec2::new(start[0], start[1]), 0.0),
     };
     let [zero, one] = phase_model::AgentId::ALL;

@@ -1,6 +1,6 @@
 //! A mind with its own belief.
 
-use crate::{BeliefState, Mind, MindParameters, belief, mind};
+use crate::{BeliefState, Mind, MindParameters, belief_in, mind};
 use phase_agent::BeliefView;
 use phase_event::Thought;
 use phase_model::{Action, BodySet, Scene, State, random::Pcg64Mcg};
@@ -22,7 +22,8 @@ pub struct Agent {
 }
 
 impl Agent {
-    /// The agent of a scene that made an observation, its first, of a state, with the belief that follows
+    /// The agent of a scene that made an observation, its first
+    /// ([`first_observation()`](crate::first_observation())), of a state, with the belief that follows
     /// from it.
     ///
     /// # Errors
@@ -35,7 +36,7 @@ impl Agent {
         random: &mut Pcg64Mcg,
     ) -> Result<Self, PomcpError> {
         let mind = mind(scene, observation.agent, parameters)?;
-        let belief = belief(scene.layout, &scene.physics(), parameters, observation, state, random);
+        let belief = belief_in(scene, parameters, observation, state, random);
         Ok(Self { mind, belief, observed: observation.observed, last_action: None })
     }
 
@@ -74,6 +75,7 @@ impl Agent {
             particles: self.belief.particles(),
             observed: self.observed,
             last_action: self.last_action,
+            suppositions: self.belief.suppositions(),
         };
         self.mind.decide(view, random)
     }

@@ -48,13 +48,13 @@ mod turns;
 
 pub use agent::Agent;
 pub use parameters::{MindKind, MindParameters, ParametersError};
-pub use phase_agent::{BeliefView, Foresight, PhaseParameters, Prior};
+pub use phase_agent::{BeliefView, Foresight, PhaseParameters, Prior, Supposition};
 pub use phase_published::{PublishedParameters, RandomNumbers, SearchMemo};
 pub use ranges::{PARTICLES, SIMULATIONS};
 pub use turns::Recorder;
 
 use phase_event::Thought;
-use phase_model::{Action, AgentId, Layout, PhysicsConfig, Scene, State, random::Pcg64Mcg};
+use phase_model::{Action, AgentId, Layout, PhysicsConfig, Scene, Sight, State, random::Pcg64Mcg};
 use phase_perception::Observation;
 use phase_pomcp::PomcpError;
 
@@ -112,6 +112,11 @@ pub trait BeliefState: core::fmt::Debug + Send + Sync {
     /// Possible states of the world, all equally likely.
     fn particles(&self) -> &[State];
 
+    /// For each particle what it supposes of the other agent's mind; empty if the agent knows its goal.
+    fn suppositions(&self) -> &[Supposition] {
+        &[]
+    }
+
     /// A copy of this belief.
     fn boxed(&self) -> Box<dyn BeliefState>;
 }
@@ -154,8 +159,36 @@ pub fn mind_sharing(
 #[must_use]
 pub fn observe(kind: MindKind, physics: &PhysicsConfig, state: &State, agent: AgentId) -> Observation {
     match kind {
-        MindKind::Phase => phase_perception::observe(physics, state, agent),
+        MindKind::Phase => phase::observe(physics, state, agent, Sight::Own),
         MindKind::Published => phase_published::senses::observe(physics, state, agent),
+    }
+}
+
+/// The first observation of an agent of a scene, in a state of the world: it is told of objects if the scene
+/// says so and its mind is of our own kind.
+#[must_use]
+pub fn first_observation(scene: &Scene, kind: MindKind, state: &State, agent: AgentId) -> Observation {
+    match kind {
+        MindKind::Phase => phase::observe(&scene.physics(), state, agent, scene.agents[agent].awareness.sees),
+        MindKind::Published => observe(kind, &scene.physics(), state, agent),
+    }
+}
+
+/// The belief of an agent of a scene after its first observation ([`first_observation()`]), as [`belief()`],
+/// and with the theory of mind that the scene gives it.
+#[must_use]
+pub fn belief_in(
+    scene: &Scene,
+    parameters: &MindParameters,
+    observation: &Observation,
+    state: Option<&State>,
+    random: &mut Pcg64Mcg,
+) -> Box<dyn BeliefState> {
+    match parameters {
+        MindParameters::Phase(parameters) => phase::belief_in(scene, *parameters, observation, random),
+        MindParameters::Published(_) => {
+            belief(scene.layout, &scene.physics(), parameters, observation, state, random)
+        }
     }
 }
 

@@ -124,7 +124,7 @@ fn evaluations(kind: MindKind, collisions: bool, height: f32) -> Vec<ActionEvalu
     let particles = [scene.initial_state()];
     let mut observed = BodySet::OBJECTS;
     AgentId::ALL.into_iter().for_each(|agent| observed.insert(Entity::Agent(agent)));
-    let belief = BeliefView { particles: &particles, observed, last_action: None };
+    let belief = BeliefView { particles: &particles, observed, last_action: None, suppositions: &[] };
     // Few steps, in which only what is near can be reached.
     let parameters: MindParameters = match kind {
         MindKind::Phase => {

@@ -16,8 +16,8 @@
 //!
 //! ```
 //! use phase_model::{
-//!     AgentId, AgentSpec, Attitude, Body, EventKind, Goal, LandmarkId, Layout, Relation, Scene, Sign, Size,
-//!     Strength, Vec2,
+//!     AgentId, AgentSpec, Attitude, Awareness, Body, EventKind, Goal, LandmarkId, Layout, Relation, Scene,
+//!     Sign, Size, Strength, Vec2,
 //! };
 //!
 //! let landmark = LandmarkId::TOP_LEFT;
@@ -27,6 +27,7 @@
 //!     strength: Strength::Strong,
 //!     goal, // a helper's goal is the other's
 //!     attitude,
+//!     awareness: Awareness::default(),
 //!     start: Body::at_rest(Vec2::new(x, 8.0), 0.0),
 //! };
 //! let agents = [spec(Attitude::Help, 12.0), spec(Attitude::Neutral, 20.0)];
@@ -44,11 +45,13 @@
 
 pub mod action;
 pub mod arena;
+mod awareness;
 pub mod entity;
 pub mod foreign;
 pub mod geometry;
 pub mod goal;
 pub mod id;
+mod intent;
 pub mod json;
 pub mod judgement;
 pub mod layout;
@@ -68,11 +71,13 @@ pub mod warning;
 pub mod words;
 
 pub use action::Action;
+pub use awareness::{Awareness, Knowledge, Level, MOST_WAITING, Sight};
 pub use entity::{AGENT_COUNT, BodySet, Entity, MAX_ENTITIES, MAX_OBJECTS};
 pub use geometry::Segment;
 pub use glam::Vec2;
 pub use goal::{Attitude, Goal, Relation, Sign};
 pub use id::{AgentId, IdError, LandmarkId, ObjectId, RoomId, SlotId};
+pub use intent::{Intent, physical_goals};
 pub use judgement::{Forecast, Judgement, RelationProbabilities, RoleProbabilities};
 pub use layout::{Flip, Layout, LayoutError};
 pub use physics::{AgentBody, PhysicsConfig, Size, Strength};

@@ -1,8 +1,8 @@
 //! A scene: the complete configuration from which two agents and an environment generate an event.
 
 use crate::{
-    AGENT_COUNT, AgentBody, AgentId, Attitude, Body, Entity, Flip, Goal, Layout, MAX_ENTITIES, MAX_OBJECTS,
-    ObjectId, PhysicsConfig, Relation, Size, State, Strength,
+    AGENT_COUNT, AgentBody, AgentId, Attitude, Awareness, Body, Entity, Flip, Goal, Layout, MAX_ENTITIES,
+    MAX_OBJECTS, ObjectId, PhysicsConfig, Relation, Size, State, Strength,
 };
 use serde::{Deserialize, Serialize};
 
@@ -80,6 +80,8 @@ pub struct AgentSpec {
     pub goal: Goal,
     /// Social utility weight α towards the other agent.
     pub attitude: Attitude,
+    /// Knowledge that it has without finding it out.
+    pub awareness: Awareness,
     /// Pose and motion at the start.
     pub start: Body,
 }

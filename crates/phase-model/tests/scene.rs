@@ -22,6 +22,7 @@ fn scene() -> Scene {
         strength: Strength::Fair,
         goal,
         attitude: Attitude::Neutral,
+        awareness: phase_model::Awareness::default(),
         start: Body::at_rest(Vec2::new(x, 8.0), 0.0),
     };
     Scene {

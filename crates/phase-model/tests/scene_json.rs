@@ -1,8 +1,8 @@
 //! Scenes as JSON, from any scene and back.
 
 use phase_model::{
-    AgentId, AgentSpec, Attitude, Body, EventKind, Flip, Goal, LandmarkId, Layout, ObjectId, ObjectSpec,
-    Scene, Sign, Size, Strength, Vec2,
+    AgentId, AgentSpec, Attitude, Awareness, Body, EventKind, Flip, Goal, Knowledge, LandmarkId, Layout,
+    Level, ObjectId, ObjectSpec, Scene, Sight, Sign, Size, Strength, Vec2,
 };
 use proptest::prelude::*;
 
@@ -33,14 +33,20 @@ fn goal(agent: AgentId) -> impl Strategy<Value = Goal> {
     })
 }
 
+fn awareness() -> impl Strategy<Value = Awareness> {
+    let levels = prop::option::of(prop::sample::select(&Level::ALL[..]));
+    let sees = prop::sample::select(&[Sight::Own, Sight::Start, Sight::Objects][..]);
+    (levels, sees, 0..=phase_model::MOST_WAITING).prop_map(|(level, sees, waits)| Awareness {
+        knows: level.map_or(Knowledge::Goals, Knowledge::Nothing),
+        sees,
+        waits,
+    })
+}
+
 fn agent(id: AgentId) -> impl Strategy<Value = AgentSpec> {
     let strength = prop::sample::select(&Strength::ALL[..]);
-    (size(), strength, goal(id), body()).prop_map(|(size, strength, goal, start)| AgentSpec {
-        size,
-        strength,
-        goal,
-        attitude: Attitude::Neutral,
-        start,
+    (size(), strength, goal(id), awareness(), body()).prop_map(|(size, strength, goal, awareness, start)| {
+        AgentSpec { size, strength, goal, attitude: Attitude::Neutral, awareness, start }
     })
 }
 
@@ -72,5 +78,52 @@ proptest! {
         if let Err(error) = Scene::from_json(&value.to_string()) {
             prop_assert!(error.to_string().contains(&name), "{}: {}", name, error);
         }
+    }
+}
+
+/// A scene of the paper's world, whose agents may have further members.
+fn with_members(members: &str) -> Result<Scene, String> {
+    let agent = |k: u8, members: &str| {
+        format!(
+            r#"{{"size_level": 0, "strength_level": 2, "alpha": 0, "start": {{"x": {x}, "y": 14}} {members},
+            "goal": {{"kind": "agent_on_landmark", "agent": {k}, "landmark": 1, "sign": 1}}}}"#,
+            x = 9 + 10 * k
+        )
+    };
+    let text = format!(
+        r#"{{"layout": {{"base": 0}}, "objects": [], "event": "independent", "agents": [{}, {}]}}"#,
+        agent(0, members),
+        agent(1, "")
+    );
+    Scene::from_json(&text).map_err(|error| error.to_string())
+}
+
+#[test]
+fn what_agents_know_is_read_and_its_default_is_not_written() {
+    let paper = with_members("").expect("a scene");
+    assert_eq!(paper.agents[0].awareness, Awareness::default());
+    for member in ["knows", "level", "sees", "waits"] {
+        assert!(!paper.to_json().expect("finite").contains(&format!("\"{member}\"")));
+    }
+    let explicit = with_members(r#", "knows": "goals", "sees": "own""#).expect("a scene");
+    assert_eq!(explicit, paper);
+    let level = |members: &str| with_members(members).expect("a scene").agents[0].awareness.knows.level();
+    assert_eq!(level(r#", "knows": "nothing""#), Some(Level::One));
+    assert_eq!(level(r#", "knows": "nothing", "level": 2"#), Some(Level::Two));
+}
+
+#[test]
+fn knowledge_that_does_not_exist_is_refused() {
+    for (members, expected) in [
+        (r#", "knows": "everything""#, "field `agents[0].knows`"),
+        (r#", "knows": "nothing", "level": 3"#, "field `agents[0].level`"),
+        (r#", "level": 1"#, "field `agents[0].level` is for agents that know \"nothing\""),
+        (r#", "knows": "goals", "level": 0"#, "field `agents[0].level` is for agents that know \"nothing\""),
+        (r#", "sees": "objects and agents""#, "field `agents[0].sees`"),
+        (r#", "waits": -1"#, "field `agents[0].waits`"),
+        (r#", "waits": 10001"#, "field `agents[0].waits`"),
+    ] {
+        let error = with_members(members).expect_err(members);
+        assert!(error.starts_with(expected), "{error}");
     }
 }

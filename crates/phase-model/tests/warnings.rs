@@ -19,6 +19,7 @@ fn scene() -> Scene {
         strength: Strength::Strong,
         goal,
         attitude: Attitude::Neutral,
+        awareness: phase_model::Awareness::default(),
         start: Body::at_rest(Vec2::new(x, 14.0), 0.0),
     };
     Scene {

@@ -13,6 +13,16 @@ pub fn observe(physics: &PhysicsConfig, state: &State, agent: AgentId) -> Observ
     Observation::of(physics, state, agent, visible, observed_set(physics, state, agent))
 }
 
+/// Everything that an agent observes of a state if it is also told where all objects are, and who touches
+/// them.
+#[must_use]
+pub fn observe_told(physics: &PhysicsConfig, state: &State, agent: AgentId) -> Observation {
+    let visible = field_of_view(physics, state, agent);
+    let objects = physics.entities().filter(|entity| matches!(entity, Entity::Object(_))).collect();
+    let observed = contact_closure(physics, state, observed_set(physics, state, agent).union(objects));
+    Observation::of(physics, state, agent, visible, observed)
+}
+
 /// The entities that an agent observes, itself included: the coarse observation for simulated states. Equal
 /// to [`Observation::observed`] of [`observe`], but tests only the cells that bodies lie on.
 #[must_use]

@@ -112,6 +112,7 @@ impl Mind {
             subgoals: proposals.iter().map(summary).collect(),
             plan: if aim == Aim::Stop { Vec::new() } else { vec![aim.subgoal()] },
             actions,
+            intents: Vec::new(),
         };
         Ok((action, thought))
     }

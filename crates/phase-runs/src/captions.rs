@@ -1,6 +1,6 @@
 //! Explanation of an agent's decision, in a few lines below its picture.
 
-use phase_event::{ActionEvaluation, SubgoalValue, Thought};
+use phase_event::{ActionEvaluation, BelievedIntent, SubgoalValue, Thought};
 use phase_render::Caption;
 
 /// Lines that [`lines`] returns.
@@ -9,12 +9,13 @@ pub const COUNT: usize = 2 + SUBGOALS + PLANNED + ACTIONS;
 pub const SUBGOALS: usize = 3;
 /// Steps of the symbolic plan shown.
 pub const PLANNED: usize = 2;
-/// Root actions shown.
+/// Root actions shown; or intents, by an agent that does not know the other's goal.
 pub const ACTIONS: usize = 4;
 
 /// The subgoals of highest value with V, particles and a bar for the share of particles; the first steps of
 /// the symbolic plan; and the most visited actions with visits, mean return and a bar for the share of
-/// visits.
+/// visits. An agent that does not know what the other wants has the likeliest intents instead of actions,
+/// with their particles.
 ///
 /// There are always [`COUNT`] lines, so that the layout does not change between steps of a video.
 #[must_use]
@@ -25,6 +26,13 @@ pub fn lines(thought: &Thought) -> Vec<Caption> {
     lines.extend(subgoals.map(|proposed| subgoal_line(proposed, particles)));
     lines.resize(1 + SUBGOALS, Caption::default());
     lines.extend(plan_lines(thought));
+    if !thought.intents.is_empty() {
+        lines.push(heading(["", "particles"], "the other wants (bar: share)"));
+        let all: usize = thought.intents.iter().map(|it| it.particles).sum();
+        lines.extend(thought.intents.iter().take(ACTIONS).map(|it| intent_line(it, all)));
+        lines.resize(COUNT, Caption::default());
+        return lines;
+    }
     let searched = !thought.actions.is_empty();
     let columns = heading(["visits", "return"], "action (bar: share of visits)");
     lines.push(if searched { columns } else { "no search needed".to_owned().into() });
@@ -41,6 +49,12 @@ fn subgoal_line(proposed: &SubgoalValue, particles: usize) -> Caption {
     let SubgoalValue { subgoal, value, particles: count } = proposed;
     let bar = *count as f32 / particles.max(1) as f32;
     Caption { cells: vec![number(*value, 2), count.to_string()], text: subgoal.to_string(), bar }
+}
+
+fn intent_line(believed: &BelievedIntent, particles: usize) -> Caption {
+    let BelievedIntent { intent, particles: count } = believed;
+    let bar = *count as f32 / particles.max(1) as f32;
+    Caption { cells: vec![String::new(), count.to_string()], text: intent.to_string(), bar }
 }
 
 fn action_line(found: &ActionEvaluation, visits: u32) -> Caption {

@@ -1,7 +1,9 @@
 //! The text below the picture of an agent's decision.
 
-use phase_event::{ActionEvaluation, SubgoalValue, Thought};
-use phase_model::{Action, AgentId, Entity, LandmarkId, Literal, ObjectId, Predicate, Subgoal};
+use phase_event::{ActionEvaluation, BelievedIntent, SubgoalValue, Thought};
+use phase_model::{
+    Action, AgentId, Attitude, Entity, Goal, Intent, LandmarkId, Literal, ObjectId, Predicate, Sign, Subgoal,
+};
 use phase_render::{Caption, SizedFont, Style};
 use phase_runs::captions::{COUNT, lines};
 
@@ -36,6 +38,7 @@ fn thought() -> Thought {
             found(Action::Left, 150, 0.0),
             found(Action::Right, 50, 0.0),
         ],
+        intents: vec![],
     }
 }
 
@@ -82,4 +85,23 @@ fn lines_fit_below_a_video_and_a_contact_sheet() {
             assert!(font.width(&text) <= room, "{text:?} in {room} pixels");
         }
     }
+}
+
+/// An agent that does not know the other's goal tells what it believes, in as many lines.
+#[test]
+fn believed_intents_take_the_place_of_actions() {
+    let goal = Goal::ObjectOnLandmark {
+        object: ObjectId::ONE,
+        landmark: LandmarkId::TOP_LEFT,
+        sign: Sign::Positive,
+    };
+    let believed = |attitude, particles| BelievedIntent { intent: Intent { attitude, goal }, particles };
+    let mut thought = thought();
+    thought.intents = vec![believed(Attitude::Neutral, 15), believed(Attitude::Hinder, 5)];
+    let lines = lines(&thought);
+    assert_eq!(lines.len(), COUNT);
+    let of = |text: &str| lines.iter().find(|line| line.text == text).map(|line| line.bar);
+    assert_eq!(of("On(object 1, landmark 0)"), Some(0.75));
+    assert_eq!(of("to hinder"), Some(0.25));
+    assert_eq!(of("down"), None);
 }

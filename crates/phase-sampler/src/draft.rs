@@ -1,8 +1,8 @@
 //! Drawing the parts of a scene.
 
 use phase_model::{
-    AgentId, Attitude, Body, Entity, EventKind, Goal, LandmarkId, Layout, MAX_OBJECTS, ObjectId, RoomId,
-    Scene, Sign, Size, SlotId, Strength, Vec2, arena,
+    AgentId, Attitude, Awareness, Body, Entity, EventKind, Goal, LandmarkId, Layout, MAX_OBJECTS, ObjectId,
+    RoomId, Scene, Sign, Size, SlotId, Strength, Vec2, arena,
     scene::{AgentSpec, ObjectSpec},
 };
 use phase_navigation::Crossing;
@@ -116,7 +116,14 @@ pub fn any_angle(random: &mut impl Rng) -> f32 {
 
 /// A neutral agent.
 pub fn agent(size: Size, strength: Strength, goal: Goal, room: RoomId, random: &mut impl Rng) -> AgentSpec {
-    AgentSpec { size, strength, goal, attitude: Attitude::Neutral, start: start_in(room, random) }
+    AgentSpec {
+        size,
+        strength,
+        goal,
+        attitude: Attitude::Neutral,
+        awareness: Awareness::default(),
+        start: start_in(room, random),
+    }
 }
 
 /// This agent with the attitude of helping.

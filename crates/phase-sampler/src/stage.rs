@@ -12,7 +12,7 @@ use crate::{
     recipe::{self, MAX_DRAWS},
     requirements,
 };
-use phase_model::{AgentSpec, Attitude, Body, Layout, Scene, Size, Vec2, scene::ObjectSpec};
+use phase_model::{AgentSpec, Attitude, Awareness, Body, Layout, Scene, Size, Vec2, scene::ObjectSpec};
 use rand::{Rng, seq::SliceRandom};
 
 /// Layout and bodies.
@@ -168,7 +168,14 @@ impl Stage {
             let (size, start) = self.agents[if agents_swapped { 1 - k } else { k }];
             let start = Body { angle: any_angle(random), ..start };
             let strength = choose(strengths[k], random);
-            AgentSpec { size, strength, goal: goals[k], attitude: attitudes[k], start }
+            AgentSpec {
+                size,
+                strength,
+                goal: goals[k],
+                attitude: attitudes[k],
+                awareness: Awareness::default(),
+                start,
+            }
         };
         let mut agents = [role(0), role(1)];
         let mut objects = self.objects.clone();

@@ -2,7 +2,7 @@
 
 use crate::simulation::belief_stream;
 use phase_event::Event;
-use phase_minds::{BeliefState, BeliefView, MindParameters, belief, observe};
+use phase_minds::{BeliefState, BeliefView, MindParameters, Supposition, belief_in, first_observation};
 use phase_model::{AgentId, BodySet, State, arena::SUBSTEPS};
 use phase_perception::{CellSet, Observation};
 
@@ -15,6 +15,8 @@ pub struct BeliefSnapshot {
     pub observed: BodySet,
     /// Its particles.
     pub particles: Vec<State>,
+    /// For each particle what it supposes of the other; empty if the agent knows the other's goal.
+    pub suppositions: Vec<Supposition>,
 }
 
 /// The beliefs of an agent before each step of an event, and one more after the last.
@@ -24,14 +26,14 @@ pub struct BeliefSnapshot {
 /// that such a mind would have had.
 #[must_use]
 pub fn beliefs(event: &Event, agent: AgentId, minds: &MindParameters) -> Vec<BeliefSnapshot> {
-    let physics = event.scene.physics();
     let mut random = belief_stream(event.seed, agent);
-    let first = observe(minds.kind(), &physics, &event.initial, agent);
-    let mut belief = belief(event.scene.layout, &physics, minds, &first, Some(&event.initial), &mut random);
+    let first = first_observation(&event.scene, minds.kind(), &event.initial, agent);
+    let mut belief = belief_in(&event.scene, minds, &first, Some(&event.initial), &mut random);
     let snapshot = |observation: &Observation, belief: &dyn BeliefState| BeliefSnapshot {
         visible: observation.visible,
         observed: observation.observed,
         particles: belief.particles().to_vec(),
+        suppositions: belief.suppositions().to_vec(),
     };
     let mut snapshots = vec![snapshot(&first, &*belief)];
     for step in &event.steps {
@@ -53,7 +55,7 @@ pub fn belief_view<'a>(
     step: usize,
     beliefs: &'a [BeliefSnapshot],
 ) -> BeliefView<'a> {
-    let BeliefSnapshot { observed, particles, .. } = &beliefs[step];
+    let BeliefSnapshot { observed, particles, suppositions, .. } = &beliefs[step];
     let last_action = step.checked_sub(1).map(|last| event.steps[last].actions[agent]);
-    BeliefView { particles, observed: *observed, last_action }
+    BeliefView { particles, suppositions, observed: *observed, last_action }
 }

@@ -3,9 +3,9 @@
 use crate::{SimulationSettings, environment::Environment};
 use core::ops::ControlFlow;
 use phase_event::{Event, Step, Thought};
-use phase_minds::{Agent, observe};
+use phase_minds::{Agent, MindKind, first_observation};
 use phase_model::{
-    AGENT_COUNT, Action, AgentId, PhysicsConfig, Scene, SceneError, State, Subgoal,
+    AGENT_COUNT, Action, AgentId, Awareness, PhysicsConfig, Scene, SceneError, State, Subgoal,
     arena::SUBSTEPS,
     random::{self, Pcg64Mcg, Purpose},
     setting::RangeError,
@@ -22,6 +22,11 @@ pub enum SimulationError {
     /// The scene is invalid.
     #[error(transparent)]
     Scene(#[from] SceneError),
+    /// The published simulator's minds know each other's goals and see with their own eyes.
+    #[error(
+        "field `agents[{0}]`: published minds know the other's goal; leave out `knows`, `level`, `sees` and `waits`"
+    )]
+    Awareness(AgentId),
     /// A search failed.
     #[error(transparent)]
     Search(#[from] phase_pomcp::PomcpError),
@@ -141,6 +146,12 @@ impl Simulation {
     ) -> Result<Self, SimulationError> {
         scene.validate()?;
         settings.validate()?;
+        let aware = |agent: &AgentId| scene.agents[*agent].awareness != Awareness::default();
+        if let (MindKind::Published, Some(agent)) =
+            (settings.minds.kind(), AgentId::ALL.into_iter().find(aware))
+        {
+            return Err(SimulationError::Awareness(agent));
+        }
         let physics = scene.physics();
         let initial = scene.initial_state();
         Ok(Self {
@@ -178,8 +189,12 @@ impl Simulation {
             substeps[SUBSTEPS - 1] = self.world.stop_agents();
         }
         self.state = substeps[SUBSTEPS - 1];
-        self.resting = if idle && is_at_rest(&self.physics, &self.state) { self.resting + 1 } else { 0 };
-        self.still = if is_unmoved(&self.physics, &before, &self.state) { self.still + 1 } else { 0 };
+        // An agent that waits has not given up.
+        let waits = self.minds.waits != [0; AGENT_COUNT];
+        let rests = !waits && idle && is_at_rest(&self.physics, &self.state);
+        let stays = !waits && is_unmoved(&self.physics, &before, &self.state);
+        self.resting = if rests { self.resting + 1 } else { 0 };
+        self.still = if stays { self.still + 1 } else { 0 };
         let steps = self.event.steps.len() + 1;
         let ended = self.resting >= settings.rest_steps || self.still >= settings.still_steps;
         self.over = (ended && steps >= settings.min_steps) || steps >= settings.max_steps;
@@ -274,6 +289,8 @@ struct Minds {
     decided: [Option<(Action, Thought)>; AGENT_COUNT],
     /// The idle agent, if any.
     idle: Option<AgentId>,
+    /// Steps that each agent still waits.
+    waits: [u16; AGENT_COUNT],
     /// The position at which the first agent's decision has left the original's random numbers, until the
     /// second decides.
     led_to: Option<u64>,
@@ -287,18 +304,26 @@ impl Minds {
         settings: &SimulationSettings,
         minds: [bool; AGENT_COUNT],
     ) -> Result<Self, SimulationError> {
-        let physics = scene.physics();
         let mut beliefs: [Pcg64Mcg; AGENT_COUNT] = AgentId::ALL.map(|agent| belief_stream(seed, agent));
         let searches = AgentId::ALL.map(|agent| random::stream(seed, Purpose::Search, agent.number().into()));
         let mut mind = |agent: AgentId| {
             let mut new = || {
-                let first = observe(settings.minds.kind(), &physics, initial, agent);
+                let first = first_observation(scene, settings.minds.kind(), initial, agent);
                 Agent::new(scene, &settings.minds, &first, Some(initial), &mut beliefs[agent])
             };
             minds[agent].then(&mut new).transpose()
         };
         let agents = [mind(AgentId::ZERO)?, mind(AgentId::ONE)?];
-        Ok(Self { agents, beliefs, searches, decided: [None, None], idle: settings.idle, led_to: None })
+        let waits = scene.agents.map(|agent| agent.awareness.waits);
+        Ok(Self {
+            agents,
+            beliefs,
+            searches,
+            decided: [None, None],
+            idle: settings.idle,
+            waits,
+            led_to: None,
+        })
     }
 
     fn decide(
@@ -316,6 +341,8 @@ impl Minds {
         given: Option<Action>,
     ) -> Result<(Action, Thought), SimulationError> {
         let decided = self.decided[agent].take();
+        let waits = self.waits[agent] > 0 && decided.is_none();
+        self.waits[agent] = self.waits[agent].saturating_sub(u16::from(waits));
         if let Some(action) = given {
             return Ok((action, Thought::IDLE));
         }
@@ -323,7 +350,7 @@ impl Minds {
             return Ok(decided);
         }
         match &mut self.agents[agent] {
-            Some(mind) if self.idle != Some(agent) => {
+            Some(mind) if self.idle != Some(agent) && !waits => {
                 // The original's random numbers go on from the first agent's search to the second's.
                 if let (AgentId::ONE, Some(position)) = (agent, self.led_to.take()) {
                     mind.begin_at(position);

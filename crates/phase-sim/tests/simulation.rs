@@ -5,7 +5,7 @@ use phase_event::Thought;
 use phase_forward::Forward;
 use phase_minds::{MindKind, MindParameters};
 use phase_model::{
-    Action, AgentId, Entity, EventKind, Scene, Vec2,
+    Action, AgentId, Awareness, Entity, EventKind, Level, Scene, Sight, Vec2,
     random::{Purpose, stream},
 };
 use phase_perception::observe;
@@ -264,4 +264,108 @@ fn agents_can_be_stopped_between_steps() {
         let first = |it: &Simulation| it.event().steps[0].substeps[4].bodies.map(|body| body.position);
         assert_eq!(first(&game), first(&free));
     }
+}
+
+/// The scene of a kind in which both agents do not know each other's goals.
+fn ignorant(kind: EventKind, level: Level) -> Scene {
+    let mut scene = scene(kind);
+    scene.agents.iter_mut().for_each(|agent| agent.awareness = Awareness::ignorant(level));
+    scene
+}
+
+#[test]
+fn thoughts_tell_what_ignorant_agents_believe_and_beliefs_can_be_recomputed() {
+    for (kind, level) in [(EventKind::Helping, Level::One), (EventKind::Hindering, Level::Two)] {
+        let event = simulate(&ignorant(kind, level), 5, &quick()).unwrap();
+        for agent in AgentId::ALL {
+            let recomputed = beliefs(&event, agent, &quick().minds);
+            for (step, belief) in event.steps.iter().zip(&recomputed) {
+                let thought = &step.thoughts[usize::from(agent)];
+                let told: usize = thought.intents.iter().map(|it| it.particles).sum();
+                assert_eq!((told, belief.suppositions.len()), (10, 10));
+                for it in &thought.intents {
+                    let those = belief.suppositions.iter().filter(|of| of.intent == it.intent).count();
+                    assert_eq!(those, it.particles);
+                }
+            }
+        }
+    }
+    let knowing = simulate(&scene(EventKind::Helping), 5, &quick()).unwrap();
+    assert!(knowing.steps.iter().flat_map(|step| &step.thoughts).all(|thought| thought.intents.is_empty()));
+}
+
+/// What an ignorant helper does must not depend on the other's goal before it has seen the other move.
+#[test]
+fn ignorant_agents_do_not_know_what_the_scene_says() {
+    let first = ignorant(EventKind::Helping, Level::One);
+    let helper =
+        AgentId::ALL.into_iter().find(|&agent| first.agents[usize::from(agent)].attitude.alpha() == 1);
+    let helper = helper.expect("a helper");
+    let goals = phase_model::physical_goals(helper.other(), first.objects.len());
+    let mut actions = Vec::new();
+    for goal in goals {
+        let mut scene = first.clone();
+        scene.agents.iter_mut().for_each(|agent| agent.goal = goal);
+        scene.agents[usize::from(helper.other())].strength = phase_model::Strength::ALL[actions.len() % 4];
+        let event = simulate(&scene, 5, &SimulationSettings { max_steps: 1, ..quick() }).unwrap();
+        actions.push((
+            event.steps[0].actions[usize::from(helper)],
+            event.steps[0].thoughts[usize::from(helper)].clone(),
+        ));
+    }
+    assert!(actions.iter().all(|it| it == &actions[0]));
+}
+
+#[test]
+fn an_agent_that_is_told_sees_objects_through_walls_and_nothing_else_changes() {
+    let mut scene = scene(EventKind::Helping);
+    scene.agents[0].awareness = Awareness { sees: Sight::Objects, ..Awareness::default() };
+    let event = simulate(&scene, 5, &quick()).unwrap();
+    for (step, belief) in event.steps.iter().zip(&beliefs(&event, AgentId::ZERO, &quick().minds)[1..]) {
+        for entity in event.scene.physics().entities().skip(2) {
+            let place = step.substeps[4].position(entity);
+            assert!(belief.particles.iter().all(|particle| particle.position(entity) == place));
+        }
+    }
+}
+
+/// An agent that knows where an object was at the start believes it there until it looks.
+#[test]
+fn a_belief_from_the_start_outlasts_a_move_that_is_not_seen() {
+    let text = r#"{"layout": {"base": 16}, "event": "independent", "agents": [
+        {"size_level": 0, "strength_level": 2, "alpha": 0, "start": {"x": 24, "y": 20, "angle": 0},
+         "goal": {"kind": "object_on_landmark", "object": 0, "landmark": 1, "sign": 1},
+         "sees": "start", "waits": 60},
+        {"size_level": 0, "strength_level": 2, "alpha": 0, "start": {"x": 9, "y": 17, "angle": 3.1416},
+         "goal": {"kind": "object_on_landmark", "object": 0, "landmark": 3, "sign": 1}}],
+        "objects": [{"size_level": 0, "start": {"x": 9, "y": 14}}]}"#;
+    let scene = Scene::from_json(text).unwrap();
+    let settings = SimulationSettings { max_steps: 60, ..quick() };
+    let event = simulate(&scene, 5, &settings).unwrap();
+    let object = scene.physics().entities().nth(2).unwrap();
+    let there = event.steps.last().unwrap().substeps[4].position(object);
+    let start = event.initial.position(object);
+    assert!(there.distance(start) > 3.0, "it was moved to {there}");
+    let belief = |scene: &Scene| {
+        let event = phase_event::Event { scene: scene.clone(), ..event.clone() };
+        let last = beliefs(&event, AgentId::ZERO, &quick().minds).pop().unwrap();
+        last.particles.iter().map(|particle| particle.position(object)).collect::<Vec<_>>()
+    };
+    assert!(belief(&scene).iter().all(|place| place.distance(start) < 0.1));
+    let mut told = scene.clone();
+    told.agents[0].awareness.sees = Sight::Objects;
+    assert!(belief(&told).iter().all(|place| *place == there));
+    let mut untold = scene.clone();
+    untold.agents[0].awareness.sees = Sight::Own;
+    assert!(belief(&untold).iter().any(|place| place.distance(start) > 3.0));
+    // It waited.
+    assert!(event.steps.iter().all(|step| step.actions[0] == Action::Stop));
+}
+
+#[test]
+fn published_minds_refuse_what_they_do_not_model() {
+    let minds = MindParameters::of(MindKind::Published).with_particles(5).with_simulations(10);
+    let settings = SimulationSettings { minds, max_steps: 1, ..quick() };
+    let refused = simulate(&ignorant(EventKind::Chasing, Level::One), 5, &settings).unwrap_err();
+    assert!(matches!(refused, SimulationError::Awareness(AgentId::ZERO)), "{refused}");
 }

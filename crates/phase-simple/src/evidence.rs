@@ -1,7 +1,7 @@
 //! Evidence of one agent's part of the motion on one intent, before it is weighed.
 
 use crate::{
-    Intent, InversePlanningSettings, PreparedEvent,
+    Hypothesis, Intent, InversePlanningSettings, PreparedEvent,
     choice::{self, ByChoice, Chance},
     simulation_run::SimulationRun,
 };
@@ -119,7 +119,7 @@ impl IntentEvidence {
         others: Goal,
         strengths: [Strength; AGENT_COUNT],
     ) -> Result<Self, PomcpError> {
-        let run = prepared.run(&intent.hypothesis(agent, others, strengths))?;
+        let run = prepared.run(&Hypothesis::of_intent(intent, agent, others, strengths))?;
         Ok(Self { agent, run, chances: Vec::new() })
     }
 

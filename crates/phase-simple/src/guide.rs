@@ -125,7 +125,7 @@ fn intent_of(hypothesis: &Hypothesis, agent: AgentId) -> Intent {
 #[cfg(test)]
 mod tests {
     use super::{Guess, intent_of};
-    use crate::{Intent, Posterior, intent::joint_logs, physical_goals};
+    use crate::{Hypothesis, Intent, Posterior, intent::joint_logs, physical_goals};
     use phase_model::{AGENT_COUNT, AgentId, Attitude, Strength};
     use std::collections::BTreeSet;
 
@@ -149,7 +149,7 @@ mod tests {
         for (hypothesis, _) in guess(Default::default()).posterior.hypotheses {
             let agent = hypothesis.social_agent().unwrap_or(AgentId::ZERO);
             let [own, others] = [agent, agent.other()].map(|agent| intent_of(&hypothesis, agent));
-            assert_eq!(own.hypothesis(agent, others.goal, STRENGTHS), hypothesis);
+            assert_eq!(Hypothesis::of_intent(own, agent, others.goal, STRENGTHS), hypothesis);
             assert_eq!(others.attitude, Attitude::Neutral);
         }
     }

@@ -2,8 +2,8 @@
 
 use phase_event::ObservedEvent;
 use phase_model::{
-    AGENT_COUNT, AgentId, AgentSpec, Attitude, Entity, EventKind, Goal, LandmarkId, ObjectId, ObjectSpec,
-    Relation, Scene, Sign, Strength,
+    AGENT_COUNT, AgentId, AgentSpec, Attitude, Awareness, Entity, EventKind, Goal, Intent, ObjectSpec,
+    Relation, Scene, Strength,
 };
 use serde::{Deserialize, Serialize};
 
@@ -55,6 +55,24 @@ impl Hypothesis {
         Self { goals: [goal(AgentId::ZERO), goal(AgentId::ONE)], attitudes, strengths }
     }
 
+    /// The hypothesis that an agent has an intent while the other pursues its own goal, which is the intent's
+    /// goal if the agent is social and `others` if it is not.
+    #[must_use]
+    pub fn of_intent(
+        intent: Intent,
+        agent: AgentId,
+        others: Goal,
+        strengths: [Strength; AGENT_COUNT],
+    ) -> Self {
+        let mut attitudes = [Attitude::Neutral; AGENT_COUNT];
+        attitudes[agent] = intent.attitude;
+        let mut goals = [intent.goal; AGENT_COUNT];
+        if intent.attitude == Attitude::Neutral {
+            goals[agent.other()] = others;
+        }
+        Self::new(goals, attitudes, strengths)
+    }
+
     /// The agent with a social goal, if there is one.
     #[must_use]
     pub fn social_agent(&self) -> Option<AgentId> {
@@ -93,6 +111,7 @@ impl Hypothesis {
             strength: self.strengths[agent],
             goal: self.goals[agent],
             attitude: self.attitudes[agent],
+            awareness: Awareness::default(),
             start: first[Entity::Agent(agent)],
         });
         let objects = observed.object_sizes().iter().zip(&first[AGENT_COUNT..]);
@@ -103,29 +122,4 @@ impl Hypothesis {
             kind: EventKind::of(self.goals, self.attitudes),
         }
     }
-}
-
-/// The physical goals that an agent can have in an event with the given number of objects: being on each
-/// landmark, each object on each landmark, approaching the other and getting away from it. Fourteen with two
-/// objects.
-#[must_use]
-pub fn physical_goals(agent: AgentId, objects: usize) -> Vec<Goal> {
-    let me = agent;
-    let other = agent.other();
-    let landmarks = LandmarkId::ALL.into_iter();
-    let mut goals: Vec<Goal> = landmarks
-        .clone()
-        .map(|landmark| Goal::AgentOnLandmark { agent: me, landmark, sign: Sign::Positive })
-        .collect();
-    goals.extend(ObjectId::ALL.into_iter().take(objects).flat_map(|object| {
-        landmarks.clone().map(move |landmark| Goal::ObjectOnLandmark {
-            object,
-            landmark,
-            sign: Sign::Positive,
-        })
-    }));
-    goals.push(Goal::Touch { agent: me, other, sign: Sign::Positive });
-    // In a chase both goals name the chaser first.
-    goals.push(Goal::Touch { agent: other, other: me, sign: Sign::Negative });
-    goals
 }

@@ -9,12 +9,12 @@
 //! event can be followed while it is watched, and the answer is the same as if it had been seen at once.
 
 use crate::{
-    Hypothesis, IntentEvidence, InversePlanningSettings, Posterior,
+    Hypothesis, Intent, IntentEvidence, InversePlanningSettings, Posterior,
     evidence::{ActionLikelihoods, Budget},
     generative::PreparedEvent,
     guide::Guess,
-    hypothesis::physical_goals,
-    intent::{Intent, WeightedIntents, joint_logs},
+    intent::{WeightedIntents, joint_logs},
+    physical_goals,
 };
 use core::ops::ControlFlow;
 use phase_model::{AGENT_COUNT, AgentId, Attitude, Goal, Strength};

@@ -1,13 +1,13 @@
 //! Inverse planning with every kind of minds, and what the guide said while the event was watched.
 
 use crate::{
-    AlternativeAgents, Budget, Guidance, Guide, ImaginedAgents, InversePlanningSettings, Proposal,
+    AlternativeAgents, Budget, Guidance, Guide, ImaginedAgents, Intent, InversePlanningSettings, Proposal,
     UniformStrength,
     answer::{Inference, KindEvidence, average, log_evidence, mixture},
     generative::PreparedEvent,
     guide::Guess,
     impression::Impression,
-    intent::{Intent, WeightedIntents},
+    intent::WeightedIntents,
     intent_network::IntentReader,
     inverse_planning::InversePlanner,
 };

@@ -79,15 +79,15 @@ pub use forecast::{
 };
 pub use generative::{AgentDecision, PreparedEvent};
 pub use guide::{Guidance, Guide};
-pub use hypothesis::{Hypothesis, physical_goals};
+pub use hypothesis::Hypothesis;
 pub use impression::{Happening, Impression, Interaction};
 pub use inference::{Cues, InferenceError, explain, infer};
-pub use intent::Intent;
 pub use intent_network::IntentNetwork;
 pub use inverse_dynamics::{InverseDynamics, MotionTracker};
 pub use methods::{IntentGuess, MotionCue, Simple};
 pub use models::{Models, ModelsError};
 pub use observer::{Observer, ObserverError};
+pub use phase_model::{Intent, physical_goals};
 pub use posterior::Posterior;
 pub use proposal::Proposal;
 pub use report_model::{ReportModel, ReportModelError};

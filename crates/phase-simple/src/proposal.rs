@@ -1,6 +1,6 @@
 //! Q(Y | S): the proposal distribution of hypotheses (appendix, "Bottom-up Proposals").
 
-use crate::{Hypothesis, Posterior, cue, hypothesis::physical_goals, strength::StrengthCue};
+use crate::{Hypothesis, Posterior, cue, physical_goals, strength::StrengthCue};
 use core::ops::RangeInclusive;
 use phase_event::ObservedEvent;
 use phase_model::{AGENT_COUNT, AgentId, Attitude, Goal, Strength};

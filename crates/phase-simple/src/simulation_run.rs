@@ -101,8 +101,12 @@ impl SimulationRun {
         agent: AgentId,
         (particles, observed): &(Vec<State>, BodySet),
     ) -> Result<(Action, Thought), PomcpError> {
-        let belief_view =
-            BeliefView { particles, observed: *observed, last_action: self.last_actions[agent] };
+        let belief_view = BeliefView {
+            particles,
+            observed: *observed,
+            last_action: self.last_actions[agent],
+            suppositions: &[],
+        };
         // The original's random numbers go on from the first agent's search to the second's.
         if let (AgentId::ONE, Some(position)) = (agent, self.led_to.take()) {
             self.minds[agent].begin_at(position);

@@ -16,6 +16,7 @@ fn decided(action: Action, visits: &[(Action, u32)]) -> AgentDecision {
         subgoals: Vec::new(),
         plan: Vec::new(),
         actions: actions.collect(),
+        intents: Vec::new(),
     };
     AgentDecision { action, thought, deviation: 0.0 }
 }

@@ -58,7 +58,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let root = particles[best.particles[0]];
 
     let last_action = Some(Action::Up);
-    let view = BeliefView { particles, observed: observation.observed, last_action };
+    let view = BeliefView { particles, observed: observation.observed, last_action, suppositions: &[] };
     let (action, thought) = Mind::new(&scene, ME, forward.clone(), parameters)?.decide(view, &mut random)?;
 
     let costs = parameters.navigation();

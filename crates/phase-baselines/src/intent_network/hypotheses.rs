@@ -40,7 +40,8 @@ impl Hypotheses {
             let other = social.other();
             for (attitude, output) in [(Attitude::Help, 1), (Attitude::Hinder, 2)] {
                 for (k, goal) in goals[other].iter().enumerate() {
-                    all.push(Intent { attitude, goal: *goal }.hypothesis(social, *goal, strengths));
+                    let intent = Intent { attitude, goal: *goal };
+                    all.push(Hypothesis::of_intent(intent, social, *goal, strengths));
                     terms.push([term(other, k, 0), term(other, k, output)]);
                 }
             }

@@ -9,7 +9,7 @@ mod text;
 use crate::{context::Context, error::CliError};
 use options::NewScene;
 use phase_files::{atomic, told};
-use phase_model::{Layout, Scene, layout::USED_BASES, random};
+use phase_model::{Awareness, Layout, Scene, layout::USED_BASES, random};
 use phase_sampler::{Request, Variant, sample};
 use serde_json::json;
 
@@ -24,7 +24,10 @@ pub fn run(arguments: &NewScene, context: &Context) -> Result<(), CliError> {
     if out.exists() {
         return Err(CliError::Usage(format!("--out: {} exists; choose another file", out.display())));
     }
-    let scene = scene(arguments)?;
+    let mut scene = scene(arguments)?;
+    if let Some(level) = arguments.level {
+        scene.agents.iter_mut().for_each(|agent| agent.awareness = Awareness::ignorant(level));
+    }
     let file = text::file(kind.name(), &scene, context.program.name)?;
     atomic::write(out, file.as_bytes()).map_err(CliError::Output)?;
     // Sets and selected presets are tested; one scene is not.

@@ -52,6 +52,9 @@ fn comments(program: &str) -> Vec<String> {
         "agents: agent 0 is red, agent 1 green. alpha: 1 helps the other, -1 hinders the other, 0 has a goal of its own. A helping agent has \
          the other's goal, a hindering one the other's goal with the opposite sign."
             .into(),
+        "knows: \"nothing\" for an agent that has to find out the other's goal, which all others know; level 0, 1 or 2 is how far it reasons \
+         about the other's mind."
+            .into(),
         "goal: {kind: agent_on_landmark, agent, landmark, sign}, {kind: object_on_landmark, object, landmark, sign} or \
          {kind: touch, agent, other, sign}; sign 1 to bring it about, -1 to prevent it."
             .into(),
@@ -65,10 +68,15 @@ fn comments(program: &str) -> Vec<String> {
 }
 
 fn agent(agent: &AgentSpec) -> serde_json::Value {
-    json!({
+    let mut members = json!({
         "size_level": agent.size.level(), "strength_level": agent.strength.level(),
         "alpha": agent.attitude.alpha(), "goal": agent.goal,
-    })
+    });
+    if let Some(level) = agent.awareness.knows.level() {
+        members["knows"] = "nothing".into();
+        members["level"] = u8::from(level).into();
+    }
+    members
 }
 
 fn object(object: &ObjectSpec) -> serde_json::Value {

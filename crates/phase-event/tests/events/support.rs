@@ -19,6 +19,7 @@ pub(crate) fn scene() -> Scene {
         strength: Strength::Strong,
         goal,
         attitude,
+        awareness: phase_model::Awareness::default(),
         start: Body::at_rest(Vec2::new(x, 14.0), angle),
     };
     let object = |size, y| ObjectSpec { size, start: Body::at_rest(Vec2::new(18.0, y), 0.0) };
@@ -100,6 +101,7 @@ fn thought(t: usize, number: &mut impl FnMut() -> f32) -> Thought {
             ))),
             Subgoal::Stay,
         ],
+        intents: vec![],
         actions: Action::ALL
             .into_iter()
             .map(|action| ActionEvaluation { action, visits: 71, value: value() })
@@ -108,7 +110,7 @@ fn thought(t: usize, number: &mut impl FnMut() -> f32) -> Thought {
 }
 
 fn idle() -> Thought {
-    Thought { subgoal: Subgoal::Stay, subgoals: vec![], plan: vec![], actions: vec![] }
+    Thought::IDLE
 }
 
 /// A measured recording with every optional field.

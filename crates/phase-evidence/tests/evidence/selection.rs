@@ -36,6 +36,7 @@ pub(super) fn scene(kind: EventKind, goals: [Goal; 2], first: Attitude) -> Scene
         strength: Strength::Fair,
         goal,
         attitude,
+        awareness: phase_model::Awareness::default(),
         start: Body::default(),
     };
     let object = ObjectSpec { size: Size::Small, start: Body::default() };

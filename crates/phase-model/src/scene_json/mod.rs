@@ -14,6 +14,7 @@ use crate::{
     AGENT_COUNT, Layout, Scene, SceneError, Size,
     json::{self, Field, FieldError, JsonError},
 };
+pub use read::{attitude, goal};
 use serde::{Deserialize, Deserializer, Serialize, Serializer, de, ser};
 use serde_json::Value;
 use thiserror::Error;

@@ -2,15 +2,27 @@
 
 use super::{LayoutAndSizes, Starts};
 use crate::{
-    AGENT_COUNT, AgentId, AgentSpec, Attitude, Body, EventKind, Flip, Goal, LandmarkId, Layout, MAX_OBJECTS,
-    ObjectId, ObjectSpec, Scene, Segment, Sign, Size, Strength, Vec2, arena,
+    AGENT_COUNT, AgentId, AgentSpec, Attitude, Awareness, Body, EventKind, Flip, Goal, Knowledge, LandmarkId,
+    Layout, Level, MAX_OBJECTS, MOST_WAITING, ObjectId, ObjectSpec, Scene, Segment, Sight, Sign, Size,
+    Strength, Vec2, arena,
     json::{Field, FieldError},
 };
 
 /// Tolerance of a redundant number.
 const TOLERANCE: f32 = 1e-3;
 /// The members of an agent, and of an object, beside its start.
-const AGENT: &[&str] = &["radius", "size_level", "max_force", "strength_level", "goal", "alpha"];
+const AGENT: &[&str] = &[
+    "radius",
+    "size_level",
+    "max_force",
+    "strength_level",
+    "goal",
+    "alpha",
+    "knows",
+    "level",
+    "sees",
+    "waits",
+];
 const OBJECT: &[&str] = &["radius", "size_level"];
 
 pub(super) fn scene(event: &Field<'_>, starts: Starts) -> Result<Scene, FieldError> {
@@ -89,14 +101,29 @@ fn agent(field: &Field<'_>, starts: Starts) -> Result<AgentSpec, FieldError> {
     let level = field.required("strength_level")?.whole(0, 3)?;
     let strength = Strength::ALL[level as usize];
     repeats(field, "max_force", strength.max_force(), &format!("the force of strength_level {level}"))?;
-    let alpha = field.required("alpha")?;
-    let attitude = match alpha.whole(-1, 1)? {
-        -1 => Attitude::Hinder,
-        0 => Attitude::Neutral,
-        _ => Attitude::Help,
-    };
+    let attitude = attitude(&field.required("alpha")?)?;
     let goal = goal(&field.required("goal")?)?;
-    Ok(AgentSpec { size, strength, goal, attitude, start: start(field, starts)? })
+    let awareness = awareness(field)?;
+    Ok(AgentSpec { size, strength, goal, attitude, awareness, start: start(field, starts)? })
+}
+
+fn awareness(field: &Field<'_>) -> Result<Awareness, FieldError> {
+    let knows = field.optional("knows")?.map(|knows| knows.one_of(&[("goals", false), ("nothing", true)]));
+    let level = field.optional("level")?;
+    let knows = match (knows.transpose()?.unwrap_or(false), level) {
+        (true, level) => {
+            let number = level.map_or(Ok(1), |level| level.whole(0, 2))?;
+            Knowledge::Nothing(Level::ALL[number as usize])
+        }
+        (false, None) => Knowledge::Goals,
+        (false, Some(level)) => {
+            return Err(level.error("is for agents that know \"nothing\" of the other's goal"));
+        }
+    };
+    let sights = [("own", Sight::Own), ("start", Sight::Start), ("objects", Sight::Objects)];
+    let sees = field.optional("sees")?.map_or(Ok(Sight::Own), |sees| sees.one_of(&sights))?;
+    let waits = field.optional("waits")?.map_or(Ok(0), |waits| waits.whole(0, MOST_WAITING.into()))?;
+    Ok(Awareness { knows, sees, waits: waits as u16 })
 }
 
 fn object(field: &Field<'_>, starts: Starts) -> Result<ObjectSpec, FieldError> {
@@ -143,7 +170,23 @@ fn repeats(field: &Field<'_>, key: &str, expected: f32, what: &str) -> Result<()
     }
 }
 
-fn goal(field: &Field<'_>) -> Result<Goal, FieldError> {
+/// An attitude that is written as its α, −1, 0 or 1.
+///
+/// # Errors
+/// [`FieldError`] for any other value.
+pub fn attitude(alpha: &Field<'_>) -> Result<Attitude, FieldError> {
+    Ok(match alpha.whole(-1, 1)? {
+        -1 => Attitude::Hinder,
+        0 => Attitude::Neutral,
+        _ => Attitude::Help,
+    })
+}
+
+/// A goal, which is an object with `kind`, `sign` and the members of its kind.
+///
+/// # Errors
+/// [`FieldError`] names the member and the rule that is violated.
+pub fn goal(field: &Field<'_>) -> Result<Goal, FieldError> {
     let agent = |key| field.required(key)?.id(&AgentId::ALL);
     let object = || field.required("object")?.id(&ObjectId::ALL);
     let landmark = || field.required("landmark")?.id(&LandmarkId::ALL);

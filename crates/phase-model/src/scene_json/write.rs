@@ -1,6 +1,6 @@
 //! From a scene to JSON.
 
-use crate::{AgentSpec, Body, EventKind, Goal, Layout, ObjectSpec, Scene};
+use crate::{AgentSpec, Body, EventKind, Goal, Layout, ObjectSpec, Scene, Sight};
 use serde::Serialize;
 
 /// The members of a scene, in the order of files.
@@ -41,13 +41,22 @@ pub struct AgentMembers {
     goal: Goal,
     alpha: i8,
     #[serde(skip_serializing_if = "Option::is_none")]
+    knows: Option<&'static str>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    level: Option<u8>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    sees: Option<&'static str>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    waits: Option<u16>,
+    #[serde(skip_serializing_if = "Option::is_none")]
     start: Option<StartMembers>,
 }
 
 impl AgentMembers {
     /// All members but `start`, for formats that store the starts elsewhere.
     #[must_use]
-    pub const fn without_start(agent: &AgentSpec) -> Self {
+    pub fn without_start(agent: &AgentSpec) -> Self {
+        let level = agent.awareness.knows.level();
         Self {
             radius: agent.size.radius(),
             size_level: agent.size.level(),
@@ -55,6 +64,14 @@ impl AgentMembers {
             strength_level: agent.strength.level(),
             goal: agent.goal,
             alpha: agent.attitude.alpha(),
+            knows: level.map(|_| "nothing"),
+            level: level.map(u8::from),
+            sees: match agent.awareness.sees {
+                Sight::Own => None,
+                Sight::Start => Some("start"),
+                Sight::Objects => Some("objects"),
+            },
+            waits: (agent.awareness.waits > 0).then_some(agent.awareness.waits),
             start: None,
         }
     }

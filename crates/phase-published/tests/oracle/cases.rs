@@ -72,6 +72,7 @@ pub(crate) fn scene(it: &Value, goals: [Goal; 2], attitudes: [Attitude; 2]) -> S
         strength: Strength::from_level(whole(&it["strengths"][k]) as u8).expect("a strength"),
         goal: goals[k],
         attitude: attitudes[k],
+        awareness: phase_model::Awareness::default(),
         start: Body::default(),
     };
     Scene {

@@ -34,6 +34,7 @@ pub(crate) fn scene(base: u8, goals: [Goal; 2], attitude: Attitude, bodies: [(f3
         strength: Strength::Strong,
         goal: goals[agent],
         attitude: if agent == 0 { attitude } else { Attitude::Neutral },
+        awareness: phase_model::Awareness::default(),
         start: body(agent),
     };
     let object = |object: usize| ObjectSpec { size: Size::Small, start: body(2 + object) };

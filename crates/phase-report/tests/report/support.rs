@@ -24,6 +24,7 @@ fn scene() -> Scene {
         strength: Strength::Strong,
         goal,
         attitude,
+        awareness: phase_model::Awareness::default(),
         start: Body::at_rest(Vec2::new(x, 14.0), 0.5),
     };
     let object = |size, y| ObjectSpec { size, start: Body::at_rest(Vec2::new(18.0, y), 0.0) };
@@ -42,10 +43,7 @@ pub(crate) fn plain_event(steps: usize) -> Event {
     let initial = scene.initial_state();
     let step = |t| Step {
         actions: [Action::Stop; 2],
-        thoughts: [
-            thought(t),
-            Thought { subgoal: Subgoal::Stay, subgoals: vec![], plan: vec![], actions: vec![] },
-        ],
+        thoughts: [thought(t), Thought::IDLE],
         substeps: [initial; SUBSTEPS],
     };
     Event { steps: (0..steps).map(step).collect(), scene, seed: 7, initial }
@@ -64,6 +62,7 @@ fn thought(t: usize) -> Thought {
         subgoals: vec![proposed(subgoal, 40), proposed(Subgoal::Stay, 10)],
         plan: vec![subgoal],
         actions: vec![],
+        intents: vec![],
     }
 }
 

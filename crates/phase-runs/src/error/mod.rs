@@ -236,6 +236,7 @@ impl RunError {
             | Self::StartAlone { .. }
             | Self::Track { .. }
             | Self::Usage(_) => Fault::Input,
+            Self::Simulation { source: SimulationError::Awareness(_), .. } => Fault::Input,
             Self::Simulation { .. }
             | Self::Method { .. }
             | Self::Models(_)

@@ -3,6 +3,7 @@ import { choices, describeScene, goals } from "./phase.js";
 
 const RADII = [0.8, 1.2, 1.6, 1.01];
 const FORCES = [150, 300, 450, 600];
+const KNOWLEDGE = [["goals", "known"], [0, "unknown, ignored"], [1, "unknown, inferred"], [2, "unknown, inferred by both"]];
 const ATTITUDES = [["1", "helps the other"], ["0", "minds its own goal"], ["-1", "hinders the other"]];
 
 const byId = (id) => document.getElementById(id);
@@ -166,6 +167,12 @@ export class Editor {
     const attitude = this.#field(select(ATTITUDES, spec.alpha), `attitude-${agent}`, (scene, value) => {
       scene.agents[agent].alpha = Number(value);
     });
+    const mind = spec.knows === "nothing" ? spec.level ?? 1 : "goals";
+    const knows = this.#field(select(KNOWLEDGE, mind), `knows-${agent}`, (scene, value) => {
+      const { knows, level, ...rest } = scene.agents[agent];
+      scene.agents[agent] = value === "goals" ? rest : { ...rest, knows: "nothing", level: Number(value) };
+    });
+    knows.title = "What it knows of the other's goal at the start.";
     const control = select([["mind", "its mind"], ["keys", "you, by keys"]], this.control[agent]);
     control.dataset.field = `control-${agent}`;
     control.addEventListener("change", () => {
@@ -182,6 +189,7 @@ export class Editor {
     grid.className = "grid";
     grid.append(
       labelled("Goal", goal, "wide"), labelled("Attitude", attitude), labelled("Size", size), labelled("Strength", strength),
+      labelled("Other's goal", knows),
       labelled("Controlled by", control), ...this.#place(agent),
     );
     const fieldset = document.createElement("fieldset");

@@ -6,8 +6,9 @@ use phase_evidence::{
     pursuit::Pursuit,
     selection::{FINAL_REST_STEPS, MIN_VISIBLE_STEPS},
 };
-use phase_model::{AgentId, Entity, Goal, ObjectId, Scene, State, layout::room_of};
+use phase_model::{AgentId, Entity, Goal, ObjectId, Scene, State, Vec2, layout::room_of};
 use phase_navigation::{IMPASSABLE_COST, Map};
+use phase_perception::{Cell, observe};
 
 /// Maximum number of steps for an agent to release its object and come to rest after its goal is reached.
 const SETTLING_STEPS: usize = 8;
@@ -56,6 +57,7 @@ pub(super) fn judge(part: &BehaviourTest, scene: &Scene, track: &Track, control:
         Criterion::Chase => case.chase(effect),
         Criterion::Compete => case.compete(goal),
         Criterion::Rest => case.rest(),
+        Criterion::WrongPlace(wanted) => case.wrong_place(goal, wanted),
     };
     Verdict { success, shown, with, without, notes }
 }
@@ -216,6 +218,37 @@ impl Case<'_> {
             }
         }
         (quiet && !held, None, notes)
+    }
+
+    /// Whether the judged agent, once it acts, first sees the place where the object of its goal was at the
+    /// start, or the object, which by then has to be in another room.
+    fn wrong_place(&self, goal: Goal, wanted: bool) -> Assessment {
+        let waits = usize::from(self.scene.agents[self.part.judged].awareness.waits);
+        let (Some(first), Some(begin)) = (self.track.states.first(), self.track.states.get(waits)) else {
+            return (false, None, "the event ended before the agent acted".into());
+        };
+        let object = goal.subject();
+        let old = first.position(object);
+        if room_of(old) == room_of(begin.position(object)) {
+            return (false, None, "the object was not moved to another room".into());
+        }
+        let radius = match object {
+            Entity::Object(id) => Vec2::splat(self.track.physics.object_radii[id]),
+            Entity::Agent(_) => Vec2::ZERO,
+        };
+        let me = self.part.judged;
+        let looked = self.track.states.iter().enumerate().skip(waits).find_map(|(step, state)| {
+            let seen = observe(&self.track.physics, state, me);
+            let mut place = Cell::in_box(old - radius, old + radius);
+            let wrong = place.any(|cell| seen.sees_cell(cell));
+            (wrong || seen.observed.contains(object)).then_some((step, wrong))
+        });
+        let notes = match looked {
+            Some((step, true)) => format!("looked where it had been, at step {step}"),
+            Some((step, false)) => format!("saw it where it is, at step {step}"),
+            None => "saw neither".into(),
+        };
+        (looked.is_some_and(|(_, wrong)| wrong == wanted), None, notes)
     }
 
     fn held_anything(&self, agent: AgentId) -> usize {

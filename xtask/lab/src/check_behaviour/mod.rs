@@ -17,7 +17,7 @@ use phase_files::{
     run::Run,
 };
 use phase_minds::MindParameters;
-use phase_model::{Scene, arena::SUBSTEPS};
+use phase_model::{Awareness, Scene, arena::SUBSTEPS};
 use phase_render::Palette;
 use phase_runs::{
     engine::GENERATOR,
@@ -29,7 +29,8 @@ use phase_runs::{
 use phase_sim::SimulationSettings;
 use report::{SceneResult, Trial};
 use rows::PARTS;
-use std::path::Path;
+use sets::SceneSet;
+use std::path::{Path, PathBuf};
 use trial::TrialRunner;
 
 /// The report's file name in the output folder; it is written last.
@@ -51,6 +52,7 @@ pub fn run(arguments: &CheckBehaviour, context: &Context) -> Result<(), LabError
     let run = Run::new([
         ("command", "check-behaviour".into()),
         ("generator", GENERATOR.into()),
+        ("level", arguments.level.map(u8::from).into()),
         ("seeds", seeds.into()),
         ("set", arguments.scenes.is_none().then(|| arguments.set.name()).into()),
         ("settings", settings_value(&settings)?),
@@ -102,10 +104,13 @@ fn scenes(arguments: &CheckBehaviour) -> Result<Vec<(usize, String, Scene)>, Run
     let wanted = |row: u8| arguments.row.is_empty() || arguments.row.contains(&row);
     let folders = arguments.folders();
     for (k, part) in PARTS.iter().enumerate().filter(|(_, part)| wanted(part.row)) {
-        for file in folders.iter().map(|folder| folder.join(format!("{}.json", part.name))) {
+        for file in files(part, &folders) {
             for recording in phase_events::read(&file)? {
                 let id = recording.id;
-                let scene = recording.scene;
+                let mut scene = recording.scene;
+                if let Some(level) = arguments.level {
+                    scene.agents.iter_mut().for_each(|agent| agent.awareness = Awareness::ignorant(level));
+                }
                 if let Some(rule) = problem(&scene) {
                     return Err(RunError::Usage(format!("{}: event {id}: {rule}", file.display())));
                 }
@@ -114,6 +119,13 @@ fn scenes(arguments: &CheckBehaviour) -> Result<Vec<(usize, String, Scene)>, Run
         }
     }
     Ok(scenes)
+}
+
+/// The files of a part. False beliefs have scenes designed by hand alone.
+fn files(part: &rows::BehaviourTest, folders: &[PathBuf]) -> Vec<PathBuf> {
+    let drawn = SceneSet::Drawn.folders();
+    let has = |folder: &&PathBuf| part.row != rows::BELIEFS || !drawn.contains(folder);
+    folders.iter().filter(has).map(|folder| folder.join(format!("{}.json", part.name))).collect()
 }
 
 /// Reason that a scene cannot be simulated here, if there is one.
@@ -174,16 +186,15 @@ fn sheet(
 
 #[cfg(test)]
 mod tests {
-    use super::{judge::judge, rows::PARTS, sets::SceneSet};
+    use super::{files, judge::judge, rows::PARTS, sets::SceneSet};
     use phase_dataset::phase_events;
     use phase_evidence::Track;
 
     /// An event in which nothing happens is not a success, with or without a counterfactual.
     #[test]
     fn no_criterion_holds_at_the_start() {
-        for folder in SceneSet::All.folders() {
-            for part in &PARTS {
-                let file = folder.join(format!("{}.json", part.name));
+        for part in &PARTS {
+            for file in files(part, &SceneSet::All.folders()) {
                 for recording in phase_events::read(&file).expect("readable") {
                     let scene = &recording.scene;
                     let start = Track { physics: scene.physics(), states: vec![scene.initial_state()] };

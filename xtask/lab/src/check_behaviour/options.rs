@@ -2,7 +2,9 @@
 
 use super::sets::SceneSet;
 use clap::{Args, value_parser};
+use phase_cli::new_scene::options::level;
 use phase_cli::{effort::SimulationOptions, json_file::JsonFile, parallel::Jobs};
+use phase_model::Level;
 use std::path::PathBuf;
 
 /// Options of `check-behaviour`.
@@ -12,7 +14,7 @@ pub struct CheckBehaviour {
     #[command(flatten)]
     pub json: JsonFile,
     /// Only these rows of the table in docs/results/behaviour.md
-    #[arg(long, value_name = "N", num_args = 1.., value_parser = value_parser!(u8).range(1..=10))]
+    #[arg(long, value_name = "N", num_args = 1.., value_parser = value_parser!(u8).range(1..=11))]
     pub row: Vec<u8>,
     /// Events of each scene: seeds 1 to N, which use the five reflections in rotation
     #[arg(long, value_name = "N", default_value_t = 10, value_parser = value_parser!(u16).range(1..=10_000))]
@@ -26,6 +28,9 @@ pub struct CheckBehaviour {
     /// Folder with other scenes
     #[arg(long, value_name = "DIR")]
     pub scenes: Option<PathBuf>,
+    /// Level of reasoning, 0, 1 or 2, of agents that do not know each other's goals [default: they know]
+    #[arg(long, value_name = "L", value_parser = level)]
+    pub level: Option<Level>,
     /// JSON file of parameters of the minds, as of `check-minds`; options that say otherwise prevail
     #[arg(long, value_name = "FILE")]
     pub parameters: Option<PathBuf>,

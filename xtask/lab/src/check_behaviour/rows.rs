@@ -49,6 +49,9 @@ pub(super) enum Criterion {
     Compete,
     /// Every agent reaches its goal, releases its object, and stays still to the end of a long event.
     Rest,
+    /// Once the agent acts, it looks where the object of its goal was at the start before it sees the object,
+    /// or sees the object first. By then the object has to be in another room.
+    WrongPlace(bool),
 }
 
 /// Way in which an agent is hindered.
@@ -83,6 +86,8 @@ impl Criterion {
             Self::Hinder(_) => "goal missed only with the hinderer, or reached at least a tenth later",
             Self::Chase => "chaser heads for the other, flight delays the catch by a tenth or prevents it",
             Self::Compete => "both have had the object, and one won or both pulled for 5 steps",
+            Self::WrongPlace(true) => "the place that the object has left seen before the object",
+            Self::WrongPlace(false) => "the object seen before the place that it has left",
             Self::Rest => "goals reached, nothing held, everybody still from 8 steps later to the end",
         }
     }
@@ -111,8 +116,11 @@ const HINDERING: BehaviourTest =
     BehaviourTest { row: 6, control: Some(AgentId::ZERO), judged: AgentId::ONE, ..BOTH };
 const SEARCHING: BehaviourTest = BehaviourTest { row: 2, name: "02-search", ..ALONE };
 
+/// The row of false and true beliefs.
+pub(super) const BELIEFS: u8 = 11;
+
 /// Everything that is checked, in order.
-pub(super) const PARTS: [BehaviourTest; 20] = [
+pub(super) const PARTS: [BehaviourTest; 22] = [
     BehaviourTest { row: 1, name: "01-landmark", title: "going to a landmark through doors", ..ALONE },
     BehaviourTest {
         title: "searching at lambda 0.05: the near region first",
@@ -217,6 +225,20 @@ pub(super) const PARTS: [BehaviourTest; 20] = [
         title: "both resting once their goals are reached",
         runs_full_length: true,
         criterion: Criterion::Rest,
+        ..BOTH
+    },
+    BehaviourTest {
+        row: BELIEFS,
+        name: "11a-false-belief",
+        title: "an object moved unseen is sought where it was",
+        criterion: Criterion::WrongPlace(true),
+        ..BOTH
+    },
+    BehaviourTest {
+        row: BELIEFS,
+        name: "11b-true-belief",
+        title: "told of the move, it is sought where it is",
+        criterion: Criterion::WrongPlace(false),
         ..BOTH
     },
 ];

@@ -135,7 +135,7 @@ impl<'a> MindsCase<'a> {
                     return Ok(None);
                 }
                 let others = self.truth.goals[agent.other()];
-                let hypothesis = intent.hypothesis(agent, others, self.truth.strengths);
+                let hypothesis = Hypothesis::of_intent(intent, agent, others, self.truth.strengths);
                 let decided =
                     self.prepared.decide_at(&hypothesis, agent, minds.into(), &self.steps).map_err(failed)?;
                 let chances = decided
