@@ -16,10 +16,13 @@ use crate::{
         sets::{self, MatrixOptions, PackOptions, PairingOptions},
     },
     man::{self, ManPages},
+    narrate::{self, Narrate},
     new_scene::{self, options::NewScene},
     playground::{self, Playground},
     program::{CommandLine, Interface},
+    questions::{self, Questions, ScoreOptions},
     render::{self, Render},
+    seal::{self, SealOptions, UnsealOptions},
     serve::{self, options::Serve},
     simulate::{self, options::Simulate},
     splits::{self, Splits},
@@ -58,6 +61,8 @@ pub enum Command {
     Render(Render),
     /// Read the motion of bodies in videos, pictures or tables as events without labels
     Track(TrackOptions),
+    /// Tell in words what happens in events
+    Narrate(Narrate),
     /// Cut clips of one length out of events, as videos, frames or GIFs, with their labels
     Clip(ClipOptions),
     /// Write what SIMPLE makes of events, and their motion, in chunks of time, as tables of regressors (BIDS)
@@ -70,6 +75,14 @@ pub enum Command {
     Match(PairingOptions),
     /// Pack videos for PsychoPy, Pavlovia, Gorilla, Children Helping Science or Qualtrics
     Pack(PackOptions),
+    /// Make a benchmark of questions about events, in the forms that evaluators of other models read
+    Questions(Questions),
+    /// Score answers to a benchmark of questions
+    Score(ScoreOptions),
+    /// Publish the motion of a dataset, and digests of its labels, so that nobody can look them up
+    Seal(SealOptions),
+    /// Prove that published motion and questions are those of a dataset that was sealed
+    Unseal(UnsealOptions),
     /// Evaluate how well a method perceives events: recognises goals and relations, or predicts trajectories
     #[command(subcommand)]
     Eval(Eval),
@@ -110,12 +123,17 @@ impl Interface for Command {
             Self::Simulate(arguments) => simulate::run(arguments, context),
             Self::Render(arguments) => render::run(arguments, context),
             Self::Track(arguments) => track::run(arguments),
+            Self::Narrate(arguments) => narrate::run(arguments, context),
             Self::Clip(arguments) => laboratory::clip(arguments, context),
             Self::Observe(arguments) => laboratory::observe(arguments, context),
             Self::Aoi(arguments) => laboratory::areas(arguments, context),
             Self::Rdm(arguments) => sets::matrices(arguments, context),
             Self::Match(arguments) => sets::pairing(arguments, context),
             Self::Pack(arguments) => sets::pack(arguments, context),
+            Self::Questions(arguments) => questions::questions(arguments, context),
+            Self::Score(arguments) => questions::score(arguments, context),
+            Self::Seal(arguments) => seal::run(arguments, context),
+            Self::Unseal(arguments) => seal::run_unseal(arguments, context),
             Self::Eval(arguments) => eval::run(arguments, context),
             Self::Train(arguments) => train::run(arguments, context),
             Self::Benchmark(arguments) => benchmark::run(arguments, context),

@@ -8,6 +8,9 @@
 //! - `stats` compares the paper's figures with a dataset's own,
 //! - `simulate` simulates the scenes of a `phase-events/1` file,
 //! - `render` turns events into videos and pictures,
+//! - `narrate` tells in words what happens in events,
+//! - `questions` makes a benchmark of questions about events, `score` scores answers,
+//! - `seal` publishes a dataset without its labels, `unseal` proves later what they were,
 //! - `eval` measures how well a method perceives events,
 //! - `train` trains neural networks (feature `networks`),
 //! - `benchmark` evaluates all methods and compares them with published results,
@@ -62,13 +65,16 @@ pub mod laboratory;
 pub mod look;
 pub mod man;
 pub mod named;
+pub mod narrate;
 pub mod new_scene;
 pub mod output;
 pub mod parallel;
 pub mod playground;
 pub mod program;
 pub mod progress;
+pub mod questions;
 pub mod render;
+pub mod seal;
 pub mod serve;
 pub mod shard_option;
 pub mod simulate;

@@ -7,12 +7,12 @@
 //! quietly an event ended. [`Parting`](parting::Parting) tells where two events that begin alike part, and
 //! [`Effect`] compares an event with the same one in which an agent did nothing, which distinguishes help
 //! from mere presence. [`mod@selection`] checks whether an event shows its label: whether the intended social
-//! event is visible in it.
+//! event is visible in it, and [`Narrative`] tells an event in words.
 //!
-//! Key design decision: intentions are not consulted. An event in which helping was intended but had no
-//! effect shows no help. The same functions therefore serve simulated events, measured recordings (which
-//! contain neither grips nor contacts; outlines replace contacts) and predicted ones. The trade-off is that
-//! what happens between two steps, a quarter of a second apart, is not seen.
+//! Key design decision: evidence does not depend on intentions. An event in which helping was intended but
+//! had no effect shows no help. The same functions therefore serve simulated events, measured recordings
+//! (which contain neither grips nor contacts; outlines replace contacts) and predicted ones. The trade-off
+//! is that what happens between two steps, a quarter of a second apart, is not seen.
 //!
 //! Agent 0 goes 2 u a step towards a landmark and arrives in step 3; agent 1 rests far from its own:
 //!
@@ -48,6 +48,7 @@ pub mod exploration;
 pub mod holding;
 pub mod manner;
 pub mod motion;
+pub mod narrative;
 pub mod outcome;
 pub mod parting;
 pub mod pursuit;
@@ -58,6 +59,7 @@ pub mod track;
 pub use effect::Effect;
 pub use manner::Manner;
 pub use motion::{MotionStatistics, VideoMotion};
+pub use narrative::Narrative;
 pub use outcome::GoalOutcome;
 pub use rest::Rest;
 pub use track::Track;

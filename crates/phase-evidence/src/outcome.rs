@@ -41,14 +41,21 @@ impl GoalOutcome {
 /// Whether the condition of the goal holds, whatever the goal's sign.
 #[must_use]
 pub fn condition(physics: &PhysicsConfig, state: &State, goal: Goal) -> bool {
-    let near = |entity: Entity, landmark: LandmarkId, limit: f32| {
-        state.position(entity).distance(arena::LANDMARKS[landmark]) < limit
-    };
     match goal {
-        Goal::AgentOnLandmark { agent, landmark, .. } => near(Entity::Agent(agent), landmark, ON_AGENT),
-        Goal::ObjectOnLandmark { object, landmark, .. } => near(Entity::Object(object), landmark, ON_OBJECT),
+        Goal::AgentOnLandmark { agent, landmark, .. } => is_on(state, Entity::Agent(agent), landmark),
+        Goal::ObjectOnLandmark { object, landmark, .. } => is_on(state, Entity::Object(object), landmark),
         Goal::Touch { agent, other, .. } => {
             contact::near(physics, state, Entity::Agent(agent), Entity::Agent(other))
         }
     }
+}
+
+/// Whether an entity is on a landmark.
+#[must_use]
+pub fn is_on(state: &State, entity: Entity, landmark: LandmarkId) -> bool {
+    let limit = match entity {
+        Entity::Agent(_) => ON_AGENT,
+        Entity::Object(_) => ON_OBJECT,
+    };
+    state.position(entity).distance(arena::LANDMARKS[landmark]) < limit
 }

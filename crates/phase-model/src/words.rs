@@ -65,13 +65,7 @@ impl Names {
     /// A landmark by its colour and its place, such as `blue landmark (top left)`.
     #[must_use]
     pub fn landmark_and_place(&self, landmark: LandmarkId) -> String {
-        let place = match landmark {
-            LandmarkId::TOP_LEFT => "top left",
-            LandmarkId::TOP_RIGHT => "top right",
-            LandmarkId::BOTTOM_RIGHT => "bottom right",
-            _ => "bottom left",
-        };
-        format!("{} ({place})", self.landmark(landmark))
+        format!("{} ({})", self.landmark(landmark), corner(landmark))
     }
 
     /// A goal of an agent as the end of the sentence "it wants …", as raters read it in the forms of studies:
@@ -116,6 +110,17 @@ impl Names {
             Fragment::Landmark(landmark) => self.landmark_and_place(landmark),
         };
         fragments.iter().map(word).collect()
+    }
+}
+
+/// The corner of the arena in which a landmark and its room are, such as `top left`.
+#[must_use]
+pub const fn corner(landmark: LandmarkId) -> &'static str {
+    match landmark {
+        LandmarkId::TOP_LEFT => "top left",
+        LandmarkId::TOP_RIGHT => "top right",
+        LandmarkId::BOTTOM_RIGHT => "bottom right",
+        _ => "bottom left",
     }
 }
 

@@ -8,6 +8,7 @@
 //! - [`eval::Evaluation`] evaluates a method; [`benchmark::BenchmarkRun`]
 //!   evaluates all of them; [`leaderboard::Submission`] scores a method from outside for the leaderboard.
 //! - [`track::TrackRun`] reads the motion of bodies in a video or table.
+//! - [`questions::QuestionRun`] makes a benchmark of questions for evaluators of other models.
 //! - `train::Training` trains a network (feature `networks`).
 //! - [`source::EventInput`] opens files and folders with events, [`event_writer`] and [`picture`] make the
 //!   files of one event.
@@ -78,8 +79,10 @@ pub mod listener;
 mod motion;
 pub mod parallel;
 pub mod picture;
+pub mod questions;
 pub mod render;
 mod resume;
+pub mod seal;
 pub mod shortcuts;
 pub mod simulate;
 pub mod source;

@@ -9,6 +9,7 @@ use phase_dataset::{
     summary::{SUMMARY_FILE, SimulationSummary},
 };
 use phase_event::{ObservedEvent, Recording, SimulationRecord};
+use phase_evidence::Track;
 use phase_files::{FileError, Problem};
 use phase_model::path::RelativePath;
 use serde_json::Value;
@@ -116,6 +117,15 @@ impl<'a> SeenEvent<'a> {
         })?;
         let id = Cow::Owned(recording.id.clone());
         Ok(Self { id, observed: Cow::Owned(observed), recording: Some(recording) })
+    }
+}
+
+/// The track of a recording; without grips and contacts where it is not simulated.
+#[must_use]
+pub fn track(recording: &Recording) -> Track {
+    match &recording.simulation {
+        Some(simulation) => Track::of_event(&simulation.event),
+        None => Track { physics: recording.scene.physics(), states: recording.trajectory.states() },
     }
 }
 

@@ -14,12 +14,15 @@ mod interruption;
 mod json;
 mod laboratory;
 mod manual;
+mod narrate;
 mod networks;
 mod new_scene;
 mod playground;
 mod predictions;
 mod progress;
+mod questions;
 mod render;
+mod seal;
 mod selection;
 #[cfg(feature = "serve")]
 mod serve;

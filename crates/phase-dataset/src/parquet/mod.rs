@@ -16,11 +16,13 @@ mod compare;
 mod export;
 mod row;
 mod rows;
+mod table;
 
 pub use column::Description;
 pub use columns::descriptions;
 pub use compare::compare;
 pub use export::ParquetWriter;
+pub use table::{TableColumn, TableValues, VideoBytes, write_table};
 
 use crate::{manifest::EventEntry, phase_events, splits::Split};
 use phase_event::{EventReadError, Recording};

@@ -8,6 +8,7 @@ mod exploration;
 mod holding;
 mod manner;
 mod motion;
+mod narrative;
 mod outcome;
 mod parting;
 mod pursuit;

@@ -101,7 +101,7 @@ impl Gallery<'_> {
             ("intro", escape(&intro) + &back),
             ("style", STYLE.to_owned()),
             ("filters", filters(events)),
-            ("cards", events.iter().map(card).collect()),
+            ("cards", events.iter().zip(timelines).map(|(event, timeline)| card(event, timeline)).collect()),
             ("timelines", escape_script(&timeline::table(events, timelines).to_string())),
             ("script", SCRIPT.to_owned()),
         ];
@@ -200,7 +200,7 @@ fn goals(event: &EventEntry) -> Vec<String> {
     texts
 }
 
-fn card(event: &EventEntry) -> String {
+fn card(event: &EventEntry, timeline: &Timeline) -> String {
     let id = escape(&event.id);
     let kind = event.kind.name();
     let agents: String = AgentId::ALL.into_iter().map(|who| agent(who, &event.agents[who])).collect();
@@ -232,6 +232,7 @@ fn card(event: &EventEntry) -> String {
          <div class=\"player\">{buttons}<output>0.0 s</output></div>\n\
          <canvas class=\"timeline\" title=\"subgoals over time; the height is the share of belief particles \
          behind them\"></canvas>\n\
+         <details><summary>{story}</summary><ol>{happenings}</ol></details>\n\
          <ul class=\"agents\">\n{agents}</ul>\n\
          <p class=\"meta\">{things}layout {base}{flip} · {steps} steps, {seconds:.1} s · \
          <a href=\"{json}\">data</a>{beside}</p>\n</article>\n",
@@ -244,6 +245,13 @@ fn card(event: &EventEntry) -> String {
             format!(" · <a href=\"{}\">its set side by side</a>", escape(&set_video_path(&place.set)))
         }),
         what = escape(words::kind(event.kind)),
+        story = escape(&timeline.narrative.short),
+        happenings = timeline
+            .narrative
+            .seen
+            .lines()
+            .map(|line| format!("<li>{}</li>", escape(line)))
+            .collect::<String>(),
         video = event.video.as_ref().map_or_else(String::new, |video| escape(video.path.as_str())),
         buttons = buttons.concat(),
         json = escape(event.event.path.as_str()),

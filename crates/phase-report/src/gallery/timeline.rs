@@ -1,14 +1,20 @@
-//! The subgoals of an event's agents, step by step, in few bytes.
+//! The subgoals of an event's agents, step by step, in few bytes, and the event in words.
 
 use phase_dataset::manifest::EventEntry;
 use phase_event::Event;
+use phase_evidence::{Narrative, Track};
 use phase_model::{AGENT_COUNT, AgentId, Entity, LandmarkId, words::Names};
 use serde_json::{Map, Value, json};
 use std::collections::BTreeMap;
 
-/// The subgoals of both agents.
-#[derive(Clone, PartialEq, Debug, Default)]
-pub struct Timeline(pub [SubgoalTrack; AGENT_COUNT]);
+/// The subgoals of both agents, and what happens.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Timeline {
+    /// The subgoals of each agent.
+    pub tracks: [SubgoalTrack; AGENT_COUNT],
+    /// The event in words.
+    pub narrative: Narrative,
+}
 
 /// The subgoals of one agent.
 #[derive(Clone, PartialEq, Debug, Default)]
@@ -23,7 +29,7 @@ impl Timeline {
     /// The timeline of an event.
     #[must_use]
     pub fn of(event: &Event) -> Self {
-        Self(AgentId::ALL.map(|agent| {
+        let tracks = AgentId::ALL.map(|agent| {
             let mut track = SubgoalTrack::default();
             for (t, step) in event.steps.iter().enumerate() {
                 let thought = &step.thoughts[agent];
@@ -34,7 +40,8 @@ impl Timeline {
                 track.shares.push(thought.share());
             }
             track
-        }))
+        });
+        Self { tracks, narrative: Narrative::of(&event.scene, &Track::of_event(event), &Names::PAPER) }
     }
 }
 
@@ -47,7 +54,7 @@ pub(super) fn table(events: &[EventEntry], timelines: &[Timeline]) -> Value {
     let mut table = Map::new();
     for (event, timeline) in events.iter().zip(timelines) {
         let mut tracks = Vec::with_capacity(AGENT_COUNT);
-        for track in &timeline.0 {
+        for track in &timeline.tracks {
             let mut changes = Vec::with_capacity(2 * track.subgoals.len());
             for (step, text) in &track.subgoals {
                 let place = *places.entry(text).or_insert_with(|| {

@@ -39,6 +39,8 @@ fn a_card_says_what_the_event_is() {
         "green agent",
         "light blue object",
         "<strong>helps</strong>",
+        "<summary>The red agent helps the green agent, which wants to put the light blue object on the green \
+         landmark (top right) and does not succeed.</summary>",
         "green landmark (top right)",
         "layout 20, flip 3",
         "2 steps, 0.5 s",
@@ -87,11 +89,11 @@ fn subgoals_and_shares_change_with_the_steps() {
     let attach = "Attach(agent 0, object 1)".to_owned();
     let avoid = "not Touch(agent 0, agent 1)".to_owned();
     let expected = vec![(0, attach.clone()), (1, avoid.clone()), (2, attach), (3, avoid)];
-    assert_eq!(timeline.0[0].subgoals, expected);
-    assert_eq!(timeline.0[1].subgoals, [(0, "Stay".to_owned())]);
+    assert_eq!(timeline.tracks[0].subgoals, expected);
+    assert_eq!(timeline.tracks[1].subgoals, [(0, "Stay".to_owned())]);
     // 40 of 50 particles; no particle proposed the idle agent's subgoal.
-    assert_eq!(timeline.0[0].shares, [0.8; 4]);
-    assert_eq!(timeline.0[1].shares, [0.0; 4]);
+    assert_eq!(timeline.tracks[0].shares, [0.8; 4]);
+    assert_eq!(timeline.tracks[1].shares, [0.0; 4]);
     let (manifest, timelines) = example("demo-0000");
     let value = embedded(&page(&manifest, &timelines));
     assert_eq!(value["texts"], json!(["Attach(agent 0, object 1)", "not Touch(agent 0, agent 1)", "Stay"]));
@@ -112,7 +114,7 @@ fn nothing_breaks_out_of_its_place() {
     manifest.events[0].id = nasty.into();
     manifest.events[0].video.as_mut().expect("a video").path = path.clone();
     manifest.events[0].event.path = path;
-    timelines[0].0[0].subgoals[0].1 = nasty.into();
+    timelines[0].tracks[0].subgoals[0].1 = nasty.into();
     let page = page(&manifest, &timelines);
     assert!(!page.contains("alert('x')</script>"));
     assert!(!page.contains(nasty));

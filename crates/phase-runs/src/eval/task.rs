@@ -209,7 +209,7 @@ fn one<T: Task>(
 }
 
 /// The seed of one event, by its name alone: it is the same whatever else is evaluated.
-pub(super) fn event_seed(seed: u64, id: &str) -> u64 {
+pub(crate) fn event_seed(seed: u64, id: &str) -> u64 {
     let hash = sha256(id.as_bytes());
     let index = hash.iter().take(8).fold(0, |word: u64, &byte| word << 8 | u64::from(byte));
     derive_seed(seed, Purpose::Evaluation, index)

@@ -309,7 +309,7 @@ fn sets(events: &Path) -> Result<BTreeMap<String, String>, RunError> {
 }
 
 /// A digest of the ids and rows of events.
-pub(super) fn source_digest(source: &EventInput) -> Result<String, RunError> {
+pub(crate) fn source_digest(source: &EventInput) -> Result<String, RunError> {
     let mut text = String::new();
     for index in 0..source.len() {
         let recording = source.load(index)?;

@@ -3,7 +3,7 @@
 
 mod answers;
 mod areas;
-mod clips;
+pub(crate) mod clips;
 mod matrices;
 mod observation;
 mod pack;
@@ -35,12 +35,14 @@ fn window(cut: Option<Cut>, id: &str, steps: usize) -> Result<Window, RunError> 
     }
 }
 
+pub(crate) use tables::unusable;
+
 fn unfit(error: &ClipError) -> RunError {
     RunError::Usage(error.to_string())
 }
 
 /// The folder of a run.
-enum Opened {
+pub(crate) enum Opened {
     /// The run is done; this is the content of its last file.
     Done(Value),
     /// It is to be done.
@@ -49,7 +51,7 @@ enum Opened {
 
 /// Opens a run's folder, which is new, empty, or of the same run. `last` is the file that the run writes
 /// last.
-fn open(out: &Path, last: &str, run: &Run) -> Result<Opened, RunError> {
+pub(crate) fn open(out: &Path, last: &str, run: &Run) -> Result<Opened, RunError> {
     match folder::inspect(out, last)? {
         Contents::Finished => {
             let done: Value = phase_files::json::read(&out.join(last))?;
@@ -63,7 +65,7 @@ fn open(out: &Path, last: &str, run: &Run) -> Result<Opened, RunError> {
     Ok(Opened::Open(Folder::claim(out, run)?))
 }
 
-fn create(folder: &Path) -> Result<(), RunError> {
+pub(crate) fn create(folder: &Path) -> Result<(), RunError> {
     std::fs::create_dir_all(folder).map_err(|source| {
         RunError::Output(WriteError { path: folder.to_owned(), action: "create the folder", source })
     })

@@ -95,7 +95,7 @@ impl Sheet {
 }
 
 /// An input file that breaks a rule.
-pub(super) fn unusable(path: &Path, rule: &str) -> RunError {
+pub(crate) fn unusable(path: &Path, rule: &str) -> RunError {
     RunError::Usage(format!("{}: {rule}", path.display()))
 }
 

@@ -1,0 +1,371 @@
+//! Everything that can be asked about an event, or about two that differ in one social variable.
+
+use crate::{
+    Facts, Query,
+    query::{clear_room, room_value},
+};
+use phase_evidence::{
+    GoalOutcome,
+    selection::{Counterfactual, Ending, check_event},
+};
+use phase_model::{
+    AgentId, Attitude, Entity, EventKind, Goal, LandmarkId, ObjectId, RoomId, Sign, State, arena::LANDMARKS,
+    layout::room_of,
+};
+use phase_perception::observed_set;
+use serde_json::{Value, json};
+
+/// Moments (steps) at which it is asked where something is.
+const PLACE_STEPS: [usize; 2] = [20, 32];
+/// Moments at which it is asked what has been seen.
+const SEEN_STEPS: [usize; 3] = [12, 24, 36];
+/// Moments at which it is asked what is believed.
+const BELIEF_STEPS: [usize; 3] = [16, 28, 40];
+/// Least share of the particles for a belief.
+const SURE: f64 = 0.8;
+
+/// A question before its options are ordered and its words chosen.
+#[derive(Clone, Debug)]
+pub(crate) struct Draft {
+    pub(crate) query: Query,
+    pub(crate) events: Vec<String>,
+    pub(crate) set: Option<String>,
+    pub(crate) until: Option<usize>,
+    /// All values among which one has to choose.
+    pub(crate) values: Vec<String>,
+    /// The right one.
+    pub(crate) value: String,
+    /// Whatever could give the answer away without motion.
+    pub(crate) stratum: String,
+    pub(crate) proof: Value,
+    pub(crate) p_human: Option<Vec<f64>>,
+}
+
+/// Collects drafts about one event.
+struct Asker<'a> {
+    facts: &'a Facts,
+    drafts: Vec<Draft>,
+}
+
+pub(crate) fn texts<const N: usize>(values: [&str; N]) -> Vec<String> {
+    values.map(str::to_owned).to_vec()
+}
+
+fn rooms_but(room: RoomId) -> Vec<String> {
+    RoomId::ALL.into_iter().filter(|&it| it != room).map(room_value).collect()
+}
+
+/// All drafts about one event.
+pub(crate) fn about_event(facts: &Facts) -> Vec<Draft> {
+    let mut asker = Asker { facts, drafts: Vec::new() };
+    asker.social();
+    asker.places();
+    asker.handling();
+    asker.minds();
+    asker.alternatives();
+    asker.drafts
+}
+
+impl Asker<'_> {
+    fn ask(&mut self, query: Query, values: Vec<String>, value: String, stratum: String, proof: Value) {
+        let Facts { id, set, .. } = self.facts;
+        self.drafts.push(Draft {
+            query,
+            events: vec![id.clone()],
+            set: set.clone(),
+            until: None,
+            values,
+            value,
+            stratum,
+            proof,
+            p_human: None,
+        });
+    }
+
+    fn objects(&self) -> impl Iterator<Item = ObjectId> + use<> {
+        ObjectId::ALL.into_iter().take(self.facts.scene.objects.len())
+    }
+
+    fn entities(&self) -> Vec<Entity> {
+        self.facts.track.physics.entities().collect()
+    }
+
+    fn first(&self) -> Option<&State> {
+        self.facts.track.states.first()
+    }
+
+    /// Relation, kind, roles, goals and strengths: the labels of the scene.
+    fn social(&mut self) {
+        let scene = &self.facts.scene;
+        let objects = scene.objects.len();
+        let stratum = format!("{objects} objects");
+        let labels = json!({
+            "goals": scene.goals(), "alphas": scene.attitudes(), "kind": scene.kind,
+            "rule": "goals and attitudes of the scene; the event passed the test that it shows its label",
+        });
+        let relation = scene.relation().name().to_owned();
+        self.ask(
+            Query::Relation,
+            texts(["friendly", "adversarial", "neutral"]),
+            relation,
+            stratum.clone(),
+            labels.clone(),
+        );
+        if let (Some(ratings), Some(draft)) = (self.facts.ratings, self.drafts.last_mut()) {
+            let all = ratings.iter().sum::<usize>() as f64;
+            draft.p_human = Some(ratings.iter().map(|&count| count as f64 / all).collect());
+        }
+        let kinds = EventKind::ALL.map(|kind| kind.name().to_owned()).to_vec();
+        self.ask(Query::Kind, kinds, scene.kind.name().to_owned(), stratum, labels.clone());
+        let roles = texts(["helps-0", "helps-1", "hinders-0", "hinders-1"]);
+        let attitudes = scene.attitudes();
+        for agent in AgentId::ALL {
+            let verb = match attitudes[agent] {
+                Attitude::Help => "helps",
+                Attitude::Hinder => "hinders",
+                Attitude::Neutral => continue,
+            };
+            self.ask(
+                Query::Role,
+                roles.clone(),
+                format!("{verb}-{agent}"),
+                self.nearer_to_first_object(),
+                labels.clone(),
+            );
+        }
+        for agent in AgentId::ALL {
+            let goal = scene.agents[agent].goal;
+            if attitudes[agent] == Attitude::Neutral && goal.sign() == Sign::Positive {
+                self.goal(agent, goal, &labels);
+            }
+        }
+        let strengths = scene.agents.map(|agent| agent.strength);
+        let stronger = match strengths[0].max_force().total_cmp(&strengths[1].max_force()) {
+            core::cmp::Ordering::Greater => "0",
+            core::cmp::Ordering::Less => "1",
+            core::cmp::Ordering::Equal => "equal",
+        };
+        let sizes = scene.agents.map(|agent| agent.size);
+        let stratum = format!("{:?}", sizes[0].radius().total_cmp(&sizes[1].radius()));
+        let forces = strengths.map(|strength| strength.max_force());
+        self.ask(
+            Query::Stronger,
+            texts(["0", "1", "equal"]),
+            stronger.to_owned(),
+            stratum,
+            json!({ "max_forces_newton": forces }),
+        );
+    }
+
+    /// The landmark of a goal, among those at which its subject is not already.
+    fn goal(&mut self, agent: AgentId, goal: Goal, labels: &Value) {
+        let (Some(landmark), Some(first)) = (goal.landmark(), self.first()) else { return };
+        let subject = goal.subject();
+        let place = first.position(subject);
+        let distance = |landmark: &LandmarkId| LANDMARKS[*landmark].distance(place);
+        let nearest = LandmarkId::ALL.into_iter().min_by(|a, b| distance(a).total_cmp(&distance(b)));
+        let Some(nearest) = nearest.filter(|&nearest| nearest != landmark) else { return };
+        let others = LandmarkId::ALL.into_iter().filter(|&it| it != nearest);
+        let values = others.map(|it| it.to_string()).collect();
+        let reached = GoalOutcome::of(&self.facts.track, goal);
+        let mut proof = labels.clone();
+        proof["outcome"] = json!(reached);
+        let what = if matches!(subject, Entity::Agent(_)) { "agent" } else { "object" };
+        self.ask(
+            Query::Goal { agent, subject },
+            values,
+            landmark.to_string(),
+            format!("{what} first at landmark {nearest}"),
+            proof,
+        );
+    }
+
+    fn nearer_to_first_object(&self) -> String {
+        let Some(first) = self.first().filter(|_| !self.facts.scene.objects.is_empty()) else {
+            return "no object".to_owned();
+        };
+        let object = first.position(Entity::Object(ObjectId::ZERO));
+        let distances = AgentId::ALL.map(|agent| first.position(Entity::Agent(agent)).distance(object));
+        format!("agent {} nearer to an object", usize::from(distances[1] < distances[0]))
+    }
+
+    /// Rooms of entities that have changed rooms.
+    fn places(&mut self) {
+        let Some(first) = self.first().copied() else { return };
+        for entity in self.entities() {
+            let Some(start) = clear_room(&first, entity) else { continue };
+            let what = if matches!(entity, Entity::Agent(_)) { "agent" } else { "object" };
+            let mut queries = vec![Query::EndRoom { entity }];
+            queries.extend(PLACE_STEPS.map(|step| Query::RoomAt { entity, step }));
+            if let Entity::Agent(agent) = entity {
+                queries.push(Query::EntersFirst { agent });
+            }
+            for query in queries {
+                let Some(value) = query.seen(&self.facts.track) else { continue };
+                if value != room_value(start) {
+                    let proof = json!({ "rule": "trajectory", "first_room": start });
+                    self.ask(query, rooms_but(start), value, format!("{what} first in room {start}"), proof);
+                }
+            }
+        }
+    }
+
+    /// Agents that touch and carry objects.
+    fn handling(&mut self) {
+        for object in self.objects() {
+            let stratum = self.nearer_to(object);
+            let query = Query::FirstTouch { object };
+            if let Some(value) = query.seen(&self.facts.track) {
+                let proof = json!({ "rule": "outlines at most 0.1 u apart, at least 4 steps before the other agent" });
+                self.ask(query, texts(["0", "1"]), value, stratum.clone(), proof);
+            }
+            // Without grips nothing is known of holding.
+            let query = Query::Carrier { object };
+            if let (Some(value), true) = (query.seen(&self.facts.track), self.facts.inside.is_some()) {
+                let proof = json!({ "rule": "held for at least 3 steps and moved at least 1 u meanwhile" });
+                self.ask(query, texts(["0", "1", "both", "neither"]), value, stratum, proof);
+            }
+        }
+    }
+
+    fn nearer_to(&self, object: ObjectId) -> String {
+        let Some(first) = self.first() else { return String::new() };
+        let place = first.position(Entity::Object(object));
+        let distances = AgentId::ALL.map(|agent| first.position(Entity::Agent(agent)).distance(place));
+        format!("agent {} nearer", usize::from(distances[1] < distances[0]))
+    }
+
+    /// Objects that agents have seen, and their beliefs, by their observations and particles. Events that are
+    /// made for false beliefs, and their second-order questions, are to be asked about here, too.
+    fn minds(&mut self) {
+        let Some(inside) = &self.facts.inside else { return };
+        let mut asked = Vec::new();
+        for agent in AgentId::ALL {
+            for object in self.objects() {
+                let entity = Entity::Object(object);
+                let observes =
+                    |state: &State| observed_set(&self.facts.track.physics, state, agent).contains(entity);
+                let observed: Vec<bool> = inside.states.iter().map(observes).collect();
+                for step in SEEN_STEPS.into_iter().filter(|&step| step < observed.len()) {
+                    let seen = observed[..=step].iter().any(|&seen| seen);
+                    let value = if seen { "yes" } else { "no" }.to_owned();
+                    let query = Query::Seen { agent, object, step };
+                    // What is seen between two frames is left out: it has to be visible in them.
+                    if query.seen(&self.facts.track).as_ref() != Some(&value) || observed[0] {
+                        continue;
+                    }
+                    let at = observed.iter().position(|&seen| seen);
+                    let proof = json!({ "rule": "observations of the agent's mind", "first_seen_step": at });
+                    asked.push((query, texts(["yes", "no"]), value, format!("step {step}"), proof));
+                }
+                for step in BELIEF_STEPS.into_iter().filter(|&step| step < observed.len()) {
+                    let seen = observed[..=step].iter().any(|&seen| seen);
+                    let belief = inside.beliefs[agent].get(step).and_then(|rooms| rooms.get(object.index()));
+                    let Some(&(room, share)) = belief else { continue };
+                    if observed[step] || !seen || share < SURE {
+                        continue;
+                    }
+                    let start = room_of(inside.states[0].position(entity));
+                    let truth = room_of(inside.states[step].position(entity));
+                    let proof = json!({
+                        "rule": "particles of the agent's belief", "share_of_particles": share,
+                        "true_room": truth, "false_belief": truth != room,
+                    });
+                    let values = RoomId::ALL.into_iter().map(room_value).collect();
+                    asked.push((
+                        Query::Believes { agent, object, step },
+                        values,
+                        room_value(room),
+                        format!("step {step}, object first in room {start}"),
+                        proof,
+                    ));
+                }
+            }
+        }
+        for (query, values, value, stratum, proof) in asked {
+            self.ask(query, values, value, stratum, proof);
+        }
+    }
+
+    /// The course of events without an agent, and the next seconds.
+    fn alternatives(&mut self) {
+        let Some(inside) = &self.facts.inside else { return };
+        let mut asked = Vec::new();
+        if let Some(without) = &inside.without {
+            let judged = self.facts.scene.agents[without.idle.other()].goal;
+            let outcomes = [&self.facts.track, &without.track].map(|track| GoalOutcome::of(track, judged));
+            if let Some(value) = change(self.facts, judged, without) {
+                let proof = json!({
+                    "rule": "the same scene and seed, simulated with the agent neutral and idle",
+                    "idle": without.idle, "with": outcomes[0], "without": outcomes[1],
+                });
+                let query = Query::Without { idle: without.idle, judged };
+                let values = texts(["better", "worse", "same"]);
+                asked.push((query, values, value.to_owned(), self.nearer_to_first_object(), proof, None));
+            }
+        }
+        if let Some(futures) = &inside.futures {
+            let cut = futures.step;
+            let after = futures.steps;
+            for entity in self.entities() {
+                let (Some(state), Some(end)) = (inside.states.get(cut), inside.states.get(cut + after))
+                else {
+                    continue;
+                };
+                let rooms = futures.ends.iter().map(|end| clear_room(end, entity));
+                let rooms: Vec<Option<RoomId>> = rooms.chain([clear_room(end, entity)]).collect();
+                let (Some(now), Some(room)) = (clear_room(state, entity), rooms[0]) else { continue };
+                if room == now || rooms.iter().any(|&it| it != Some(room)) {
+                    continue;
+                }
+                let what = if matches!(entity, Entity::Agent(_)) { "agent" } else { "object" };
+                let proof = json!({
+                    "rule": "futures simulated from the last state of the video, and the event itself",
+                    "futures": futures.ends.len(), "p": 1.0, "room_at_the_cut": now,
+                });
+                let query = Query::Ahead { entity, step: cut, after };
+                let stratum = format!("{what} last in room {now}");
+                asked.push((query, rooms_but(now), room_value(room), stratum, proof, Some(cut)));
+            }
+        }
+        for (query, values, value, stratum, proof, until) in asked {
+            self.ask(query, values, value, stratum, proof);
+            if let Some(draft) = self.drafts.last_mut() {
+                draft.until = until;
+            }
+        }
+    }
+}
+
+/// The judged agent's success without the idle one: `better`, `worse` or `same`; `None` where the
+/// difference is neither clear nor absent.
+fn change(facts: &Facts, judged: Goal, without: &crate::Alternative) -> Option<&'static str> {
+    use phase_evidence::{Effect, selection::CausalEffect};
+    let [with, none] = [&facts.track, &without.track].map(|track| GoalOutcome::of(track, judged));
+    let shows = |change| {
+        let counterfactual =
+            Counterfactual { idle: without.idle, judged: without.idle.other(), change, cut: true };
+        counterfactual.judge(&facts.scene, &facts.track, &without.track).is_ok()
+    };
+    match (shows(CausalEffect::Helped), shows(CausalEffect::Hindered)) {
+        (true, false) => Some("worse"),
+        (false, true) => Some("better"),
+        (false, false) if with.reached == none.reached => {
+            let effect = Effect { with, without: none };
+            (!effect.helped() && !effect.hindered()).then_some("same")
+        }
+        _ => None,
+    }
+}
+
+/// The agent whose absence an event is compared with: that of the test of its label, or agent 1 where that
+/// test needs none.
+#[must_use]
+pub fn idle_of(facts: &Facts) -> AgentId {
+    let lengths = 0..=facts.track.steps();
+    let checked = check_event(&facts.scene, &facts.track, lengths, Ending::Drawn(None));
+    match checked {
+        Ok(Some(Counterfactual { idle, .. })) => idle,
+        _ => AgentId::ONE,
+    }
+}

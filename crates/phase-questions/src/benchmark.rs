@@ -1,0 +1,155 @@
+//! From events to questions whose answers cannot be guessed.
+
+use crate::{
+    BUDGETS, Choice, Facts, FrameBudget, Query, Question, Watched,
+    ask::{Draft, about_event},
+    pairs::about_pair,
+    words,
+};
+use phase_model::words::Names;
+use rand::{Rng, RngExt, seq::SliceRandom};
+use std::collections::BTreeMap;
+
+/// Options of a question about the kind of event.
+const KIND_OPTIONS: usize = 4;
+
+/// Makes questions about events. Events of one set follow each other.
+///
+/// Within a stratum, that is among questions that look alike without motion, every answer is right equally
+/// often: questions that would make one more frequent are left out, at random. Right options stand at every
+/// place equally often.
+#[must_use]
+pub fn questions<R: Rng>(events: &[Facts], names: &Names, random: &mut R) -> Vec<Question> {
+    let mut drafts: Vec<Draft> = events.iter().flat_map(about_event).collect();
+    let mut first = 0;
+    while first < events.len() {
+        let set = &events[first].set;
+        let after = events[first..].iter().position(|it| it.set != *set).map_or(events.len(), |k| first + k);
+        if set.is_some() {
+            for one in first..after {
+                for other in one + 1..after {
+                    drafts.extend(about_pair([&events[one], &events[other]]));
+                }
+            }
+        }
+        first = after.max(first + 1);
+    }
+    let mut by_type: BTreeMap<usize, Vec<Draft>> = BTreeMap::new();
+    for draft in drafts {
+        let name = draft.query.type_name();
+        let place = Query::TYPES.iter().position(|known| *known == name).unwrap_or_default();
+        by_type.entry(place).or_default().push(draft);
+    }
+    let mut questions = Vec::new();
+    for drafts in by_type.into_values() {
+        questions.extend(worded(balanced(drafts, random), names, random));
+    }
+    questions
+}
+
+/// Leaves out questions until all values are equally frequent in every stratum. Two events side by side are
+/// swapped instead.
+fn balanced<R: Rng>(drafts: Vec<Draft>, random: &mut R) -> Vec<Draft> {
+    let mut strata: BTreeMap<String, Vec<Draft>> = BTreeMap::new();
+    for draft in drafts {
+        strata.entry(draft.stratum.clone()).or_default().push(draft);
+    }
+    let mut kept = Vec::new();
+    for mut drafts in strata.into_values() {
+        drafts.shuffle(random);
+        if drafts[0].events.len() == 2 {
+            for (k, draft) in drafts.iter_mut().enumerate() {
+                if draft.value != (k % 2).to_string() {
+                    draft.events.reverse();
+                    draft.value = (k % 2).to_string();
+                }
+            }
+            kept.extend(drafts);
+            continue;
+        }
+        let count = |value: &String| drafts.iter().filter(|draft| draft.value == *value).count();
+        let least = drafts[0].values.iter().map(count).min().unwrap_or_default();
+        let mut left: BTreeMap<String, usize> =
+            drafts[0].values.iter().map(|value| (value.clone(), least)).collect();
+        kept.extend(drafts.into_iter().filter(|draft| {
+            left.get_mut(&draft.value).is_some_and(|left| {
+                let keep = *left > 0;
+                *left = left.saturating_sub(1);
+                keep
+            })
+        }));
+    }
+    kept.shuffle(random);
+    kept
+}
+
+/// Gives drafts of one type their words and the order of their options.
+fn worded<R: Rng>(drafts: Vec<Draft>, names: &Names, random: &mut R) -> Vec<Question> {
+    let mut questions = Vec::with_capacity(drafts.len());
+    for (k, draft) in drafts.into_iter().enumerate() {
+        let Draft { query, events, set, until, value, stratum, proof, p_human, .. } = draft;
+        let mut others: Vec<String> = draft.values.iter().filter(|it| **it != value).cloned().collect();
+        others.shuffle(random);
+        if query == Query::Kind {
+            others.truncate(KIND_OPTIONS - 1);
+        }
+        let count = others.len() + 1;
+        // Pairs are in place already: left is left.
+        let mut values = others;
+        let answer = if events.len() == 2 {
+            values = draft.values.clone();
+            values.iter().position(|it| *it == value).unwrap_or_default()
+        } else {
+            values.insert(k % count, value);
+            k % count
+        };
+        let human = |shares: Vec<f64>| {
+            let share = |value: &String| {
+                draft.values.iter().position(|it| it == value).and_then(|k| shares.get(k).copied())
+            };
+            values.iter().map(|value| share(value).unwrap_or_default()).collect()
+        };
+        let video = match (&events[..], until) {
+            ([event], Some(step)) => format!("{event}-until{step}"),
+            (events, _) => events.join("-beside-"),
+        };
+        questions.push(Question {
+            id: format!("{}-{:04}", query.type_name(), k + 1),
+            p_human: p_human.map(human),
+            text: words::question(&query, random.random_range(0..words::PHRASINGS), names),
+            options: values
+                .iter()
+                .map(|value| Choice { value: value.clone(), text: words::option(&query, value, names) })
+                .collect(),
+            query,
+            events,
+            video,
+            set,
+            until,
+            answer,
+            frames: None,
+            stratum,
+            proof,
+        });
+    }
+    questions
+}
+
+/// The least number of frames from which, and from every greater number, a question is answered right.
+/// `watch` gives what somebody sees in a number of frames of its events.
+pub fn frames_needed(
+    question: &Question,
+    mut watch: impl FnMut(&str, FrameBudget) -> Option<Watched>,
+) -> Option<FrameBudget> {
+    let values: Vec<String> = question.options.iter().map(|option| option.value.clone()).collect();
+    let mut least = None;
+    for budget in BUDGETS.into_iter().rev() {
+        let watched: Option<Vec<Watched>> =
+            question.events.iter().map(|event| watch(event, budget)).collect();
+        match watched.and_then(|watched| question.query.choice(&watched, &values)) {
+            Some(choice) if choice == question.answer => least = Some(budget),
+            _ => break,
+        }
+    }
+    least
+}

@@ -1,0 +1,233 @@
+//! Questions and options in words, several phrasings each.
+
+use crate::Query;
+use phase_model::{
+    AgentId, Entity, EventKind, LandmarkId,
+    arena::STEP_VIDEO_SECONDS,
+    words::{self, Names, corner, wants_to},
+};
+
+/// Facts about every video that a viewer has to know, to be shown before a question.
+pub const INTRODUCTION: &str = "The video shows, from above, four rooms with walls and doors. Two agents, one red and one green, are \
+     trapezoids whose narrow end is the head; they see what is ahead of them and not behind walls or bodies. Discs are \
+     objects, which agents can push, or hold and carry: a dark bar joins an agent and what it holds. Large pale \
+     squares in the corners are landmarks: blue at the top left, green at the top right, red at the bottom right, \
+     yellow at the bottom left. Each room is named by its corner.";
+
+/// Number of phrasings of every question.
+pub const PHRASINGS: usize = 3;
+
+/// The text of a question in one of its phrasings.
+#[must_use]
+pub(crate) fn question(query: &Query, phrasing: usize, names: &Names) -> String {
+    let agent = |agent: AgentId| names.entity(Entity::Agent(agent));
+    let seconds = |steps: usize| format!("{} s", steps as f64 * STEP_VIDEO_SECONDS);
+    let pick = |texts: [String; PHRASINGS]| {
+        let [one, two, three] = texts;
+        match phrasing % PHRASINGS {
+            0 => one,
+            1 => two,
+            _ => three,
+        }
+    };
+    match *query {
+        Query::Relation => pick([
+            "How do the two agents relate to each other?".into(),
+            "What is the relation between the red agent and the green agent?".into(),
+            "Which of these describes best how the two agents treat each other?".into(),
+        ]),
+        Query::Kind => pick([
+            "What happens in this video?".into(),
+            "Which of these describes the whole video best?".into(),
+            "What is going on between the two agents?".into(),
+        ]),
+        Query::Role => pick([
+            "Which of these is true?".into(),
+            "What does one of the agents do to the other?".into(),
+            "One agent acts for or against the other. Which, and how?".into(),
+        ]),
+        Query::Goal { agent: whose, subject } if subject == Entity::Agent(whose) => {
+            let who = agent(whose);
+            pick([
+                format!("On which landmark does the {who} want to be?"),
+                format!("Which landmark is the {who} trying to reach?"),
+                format!("Where does the {who} want to go?"),
+            ])
+        }
+        Query::Goal { agent: whose, subject } => {
+            let who = agent(whose);
+            let what = names.entity(subject);
+            pick([
+                format!("On which landmark does the {who} want the {what}?"),
+                format!("To which landmark is the {who} trying to bring the {what}?"),
+                format!("Where does the {who} want the {what} to be?"),
+            ])
+        }
+        Query::Stronger => pick([
+            "Which agent is stronger, that is, can push with more force?".into(),
+            "Which of the two agents has more strength?".into(),
+            "Compare the force of the two agents. Which one is stronger?".into(),
+        ]),
+        Query::EndRoom { entity } => {
+            let what = names.entity(entity);
+            pick([
+                format!("In which room is the {what} at the end?"),
+                format!("Where does the {what} end up?"),
+                format!("Which room holds the {what} when the video ends?"),
+            ])
+        }
+        Query::RoomAt { entity, step } => {
+            let what = names.entity(entity);
+            let when = seconds(step);
+            pick([
+                format!("In which room is the {what} after {when}?"),
+                format!("Where is the {what}, {when} after the beginning?"),
+                format!("{when} have passed. Which room holds the {what}?"),
+            ])
+        }
+        Query::FirstTouch { object } => {
+            let what = names.entity(Entity::Object(object));
+            pick([
+                format!("Which agent touches the {what} first?"),
+                format!("Which agent is the first to reach the {what}?"),
+                format!("The {what} is touched. By which agent first?"),
+            ])
+        }
+        Query::EntersFirst { agent: whose } => {
+            let who = agent(whose);
+            pick([
+                format!("Which room does the {who} enter first, after the one in which it starts?"),
+                format!("The {who} leaves the room in which it starts. Where does it come next?"),
+                format!("What is the first other room that the {who} goes into?"),
+            ])
+        }
+        Query::Carrier { object } => {
+            let what = names.entity(Entity::Object(object));
+            pick([
+                format!("Which agent holds and moves the {what}?"),
+                format!("Who carries the {what}?"),
+                format!("By which agent is the {what} carried?"),
+            ])
+        }
+        Query::Seen { agent: whose, object, step } => {
+            let who = agent(whose);
+            let what = names.entity(Entity::Object(object));
+            let when = seconds(step);
+            pick([
+                format!("Has the {who} seen or felt the {what} within the first {when}?"),
+                format!(
+                    "After {when}, does the {who} know from its own eyes or touch where the {what} is or was?"
+                ),
+                format!("Did the {who} see or touch the {what} at any time in the first {when}?"),
+            ])
+        }
+        Query::Believes { agent: whose, object, step } => {
+            let who = agent(whose);
+            let what = names.entity(Entity::Object(object));
+            let when = seconds(step);
+            pick([
+                format!(
+                    "After {when} the {who} does not see the {what}. In which room does it believe it to be?"
+                ),
+                format!("Where does the {who} think the {what} is after {when}, when it does not see it?"),
+                format!(
+                    "If the {who} went to look for the {what} after {when}, in which room would it look?"
+                ),
+            ])
+        }
+        Query::Without { idle, judged } => {
+            let other = idle.other();
+            let who = agent(idle);
+            let whom = agent(other);
+            let aim = names.plain(&wants_to(judged, other));
+            pick([
+                format!("The {whom} wants to {aim}. How would it have fared had the {who} done nothing?"),
+                format!(
+                    "Suppose that the {who} had not moved at all. What would that have meant for the {whom}, which \
+                     wants to {aim}?"
+                ),
+                format!(
+                    "What difference does the {who} make to the {whom}, which wants to {aim}? Without it, the {whom} …"
+                ),
+            ])
+        }
+        Query::Ahead { entity, after, .. } => {
+            let what = names.entity(entity);
+            let when = seconds(after);
+            pick([
+                format!("The video stops. In which room will the {what} be {when} later?"),
+                format!("Where will the {what} be {when} after the end of the video?"),
+                format!("It goes on for another {when}. Which room will then hold the {what}?"),
+            ])
+        }
+        Query::PairHelp => pick([
+            "In which of the two videos does one agent help the other?".into(),
+            "Two videos begin alike. In one of them an agent is helped by the other. Which?".into(),
+            "Which video shows help?".into(),
+        ]),
+        Query::PairHinder => pick([
+            "In which of the two videos does one agent hinder the other?".into(),
+            "Two videos begin alike. In one of them an agent is kept from its goal by the other. Which?"
+                .into(),
+            "Which video shows an agent that works against the other?".into(),
+        ]),
+        Query::PairTogether => pick([
+            "In which of the two videos do both agents want the same?".into(),
+            "Two videos begin alike. In one of them the agents work together. Which?".into(),
+            "Which video shows two agents with one common goal?".into(),
+        ]),
+    }
+}
+
+/// The text of an option.
+#[must_use]
+pub(crate) fn option(query: &Query, value: &str, names: &Names) -> String {
+    let number = value.parse::<usize>().ok();
+    let landmark = number.and_then(|number| LandmarkId::ALL.get(number).copied());
+    let agent = number.and_then(|number| AgentId::ALL.get(number).copied());
+    let agent_name = |agent: AgentId| format!("the {}", names.entity(Entity::Agent(agent)));
+    match query {
+        Query::Relation => match value {
+            "friendly" => "friendly: one helps the other, or both want the same",
+            "adversarial" => "adversarial: one hinders the other, or their goals conflict",
+            _ => "neutral: each minds its own goal",
+        }
+        .into(),
+        Query::Kind => EventKind::named(value).map_or_else(String::new, |kind| words::kind(kind).to_owned()),
+        Query::Role => {
+            let (verb, agent) = value.rsplit_once('-').unwrap_or_default();
+            let agent = if agent == "1" { AgentId::ONE } else { AgentId::ZERO };
+            format!("{} {verb} {}", agent_name(agent), agent_name(agent.other()))
+        }
+        Query::Goal { .. } => {
+            landmark.map_or_else(String::new, |it| format!("the {}", names.landmark_and_place(it)))
+        }
+        Query::EndRoom { .. }
+        | Query::RoomAt { .. }
+        | Query::EntersFirst { .. }
+        | Query::Believes { .. }
+        | Query::Ahead { .. } => landmark.map_or_else(String::new, |it| format!("the {} room", corner(it))),
+        Query::Stronger | Query::FirstTouch { .. } | Query::Carrier { .. } => match (value, agent) {
+            ("equal", _) => "both are equally strong".into(),
+            ("both", _) => "both agents, at once or one after the other".into(),
+            ("neither", _) => "neither of them".into(),
+            (_, Some(agent)) if matches!(query, Query::Carrier { .. }) => {
+                format!("{} alone", agent_name(agent))
+            }
+            (_, Some(agent)) => agent_name(agent),
+            _ => String::new(),
+        },
+        Query::Seen { .. } => value.to_owned(),
+        Query::Without { idle, .. } => {
+            let whom = agent_name(idle.other());
+            match value {
+                "better" => format!("{whom} would have been more successful, or successful sooner"),
+                "worse" => format!("{whom} would have been less successful, or successful later"),
+                _ => format!("it would have made no difference to {whom}"),
+            }
+        }
+        Query::PairHelp | Query::PairHinder | Query::PairTogether => {
+            if value == "0" { "the left video" } else { "the right video" }.into()
+        }
+    }
+}

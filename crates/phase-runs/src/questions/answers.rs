@@ -1,0 +1,210 @@
+//! Answers of the methods of the benchmark, and guesses without motion.
+
+use super::line;
+use crate::{error::RunError, laboratory::create};
+use core::ops::ControlFlow;
+use phase_event::{ObservedEvent, Recogniser};
+use phase_evidence::Track;
+use phase_files::atomic;
+use phase_model::{
+    Judgement,
+    random::{Purpose, stream},
+};
+use phase_questions::{BUDGETS, Control, Facts, FrameBudget, Question, Watched, guesses, reordered, sampled};
+use rand::{RngExt, seq::SliceRandom};
+use serde_json::{Value, json};
+use std::{collections::BTreeMap, path::Path};
+
+/// Folder of the answers.
+const FOLDER: &str = "answers";
+
+/// Judgements of a method about what is shown, by budget and, after them, of shuffled and reversed frames.
+pub(super) type Judged = Vec<Option<Judgement>>;
+
+/// Events as somebody sees them, and the judgements of a method about them.
+pub(super) struct Watcher<'a> {
+    judged: BTreeMap<(&'a str, Option<usize>), (&'a Facts, Judged)>,
+}
+
+/// The motion that is shown, up to a step.
+fn shown(facts: &Facts, until: Option<usize>) -> Track {
+    until.map_or_else(|| facts.track.clone(), |step| facts.track.until(step))
+}
+
+/// The frames in random order, which depends on the seed alone.
+fn shuffled(track: &Track, seed: u64) -> Track {
+    let frames = track.states.len();
+    let mut order: Vec<usize> = (0..frames).collect();
+    order.shuffle(&mut stream(seed, Purpose::Evaluation, frames as u64));
+    reordered(track, &order)
+}
+
+fn reversed(track: &Track) -> Track {
+    let order: Vec<usize> = (0..track.states.len()).rev().collect();
+    reordered(track, &order)
+}
+
+/// Asks a method about an event in every number of frames, or in all alone, and in other orders; `None` if it
+/// was cancelled.
+pub(super) fn judge(
+    method: &dyn Recogniser,
+    facts: &Facts,
+    until: Option<usize>,
+    all_frames_only: bool,
+    seed: u64,
+    tick: &mut dyn FnMut() -> ControlFlow<()>,
+) -> Result<Option<Judged>, RunError> {
+    let track = shown(facts, until);
+    let mut tracks: Vec<Option<Track>> = BUDGETS
+        .into_iter()
+        .map(|budget| {
+            let wanted = !all_frames_only || budget == FrameBudget::All;
+            wanted.then(|| sampled(&track, budget))
+        })
+        .collect();
+    tracks.push((!all_frames_only).then(|| shuffled(&track, seed)));
+    tracks.push((!all_frames_only).then(|| reversed(&track)));
+    let mut judged: Judged = Vec::with_capacity(tracks.len());
+    for track in tracks {
+        let Some(track) = track else {
+            judged.push(None);
+            continue;
+        };
+        let rows = track.states.iter().map(|state| state.bodies).collect();
+        let observed = ObservedEvent::in_scene(&facts.scene, rows)
+            .map_err(|error| RunError::Usage(format!("event {}: {error}", facts.id)))?;
+        let answer = method.judge(&observed, seed, tick);
+        let answer = answer.map_err(|source| RunError::Method { id: facts.id.clone(), source })?;
+        let Some((judgement, _)) = answer else { return Ok(None) };
+        judged.push(Some(judgement));
+    }
+    Ok(Some(judged))
+}
+
+impl<'a> Watcher<'a> {
+    pub(super) fn new(shown: Vec<(&'a Facts, Option<usize>)>, judged: Vec<Judged>) -> Self {
+        let entry = |((facts, until), judged): ((&'a Facts, _), Judged)| {
+            ((facts.id.as_str(), until), (facts, judged))
+        };
+        Self { judged: shown.into_iter().zip(judged).map(entry).collect() }
+    }
+
+    /// An event in a number of frames.
+    pub(super) fn watch(&self, event: &str, until: Option<usize>, budget: FrameBudget) -> Option<Watched> {
+        let (facts, judged) = self.judged.get(&(event, until))?;
+        let place = BUDGETS.iter().position(|it| *it == budget)?;
+        let track = sampled(&shown(facts, until), budget);
+        Some(Watched { track, judgement: judged.get(place).cloned().flatten() })
+    }
+
+    /// An event in frames of another order.
+    fn watch_order(&self, event: &str, until: Option<usize>, control: Control, seed: u64) -> Option<Watched> {
+        let (facts, judged) = self.judged.get(&(event, until))?;
+        let track = shown(facts, until);
+        let (track, place) = match control {
+            Control::Shuffled => (shuffled(&track, seed), BUDGETS.len()),
+            _ => (reversed(&track), BUDGETS.len() + 1),
+        };
+        Some(Watched { track, judgement: judged.get(place).cloned().flatten() })
+    }
+
+    /// The option that is chosen under a control, if anything speaks for one.
+    fn choice(&self, question: &Question, control: Control, seed: u64) -> Option<usize> {
+        let values: Vec<String> = question.options.iter().map(|option| option.value.clone()).collect();
+        let watched = question.events.iter().map(|event| match control {
+            Control::Shuffled | Control::Reversed => self.watch_order(event, question.until, control, seed),
+            _ => self.watch(event, question.until, FrameBudget::All),
+        });
+        let watched: Option<Vec<Watched>> = watched.collect();
+        question.query.choice(&watched?, &values)
+    }
+}
+
+/// A random option, where nothing speaks for any.
+fn by_chance(question: &Question, seed: u64) -> usize {
+    let id = super::event_seed(seed, &question.id);
+    stream(id, Purpose::Evaluation, 0).random_range(0..question.options.len().max(1))
+}
+
+fn answer(question: &Question, control: Control, option: usize) -> Result<String, RunError> {
+    let letter = Question::letter(option).to_string();
+    line(&json!({ "id": question.id, "control": control.name(), "answer": letter }))
+}
+
+/// Writes the answers of a method. Where nothing speaks for an option, one is chosen at random. Questions
+/// about what happens are answered by their definition, whatever the method.
+pub(super) fn write(
+    out: &Path,
+    method: &str,
+    all: &[Question],
+    watcher: &Watcher<'_>,
+    seed: u64,
+) -> Result<Value, RunError> {
+    let mut lines = String::new();
+    let mut open = 0;
+    for control in [Control::Video, Control::Shuffled, Control::Reversed] {
+        for question in all {
+            if control != Control::Video && watcher.is_for_video_alone() {
+                continue;
+            }
+            let choice = watcher.choice(question, control, seed);
+            open += usize::from(choice.is_none());
+            lines += &answer(question, control, choice.unwrap_or_else(|| by_chance(question, seed)))?;
+        }
+    }
+    write_lines(out, method, &lines)?;
+    Ok(json!({ "method": method, "left_to_chance": open }))
+}
+
+impl Watcher<'_> {
+    fn is_for_video_alone(&self) -> bool {
+        self.judged.values().all(|(_, judged)| judged.get(BUDGETS.len()).is_none_or(Option::is_none))
+    }
+}
+
+/// Writes guesses from the words alone and from the first frame, and random answers.
+pub(super) fn write_guesses(out: &Path, all: &[Question], seed: u64) -> Result<Value, RunError> {
+    let mut lines = String::new();
+    for control in [Control::NoVideo, Control::FirstFrame] {
+        for (question, option) in all.iter().zip(guesses(all, control)) {
+            lines += &answer(question, control, option)?;
+        }
+    }
+    write_lines(out, "guess", &lines)?;
+    let mut lines = String::new();
+    for question in all {
+        lines += &answer(question, Control::Video, by_chance(question, seed))?;
+    }
+    write_lines(out, "chance", &lines)?;
+    Ok(json!({ "method": "guess" }))
+}
+
+fn write_lines(out: &Path, name: &str, lines: &str) -> Result<(), RunError> {
+    create(&out.join(FOLDER))?;
+    Ok(atomic::write(&out.join(FOLDER).join(format!("{name}.jsonl")), lines.as_bytes())?)
+}
+
+/// A table of positions four times a second, for models that read in place of watching.
+pub(super) fn table(track: &Track, names: &phase_model::words::Names) -> String {
+    let entities: Vec<_> = track.physics.entities().collect();
+    let mut text = String::from("time (s)");
+    for &entity in &entities {
+        let name = names.entity(entity);
+        text += &format!("; {name} x, y");
+        if matches!(entity, phase_model::Entity::Agent(_)) {
+            text += ", heading (degrees, 0 right, 90 up)";
+        }
+    }
+    for (step, state) in track.states.iter().enumerate() {
+        text += &format!("\n{}", step as f64 * phase_model::arena::STEP_VIDEO_SECONDS);
+        for &entity in &entities {
+            let body = state.body(entity);
+            text += &format!("; {:.1}, {:.1}", body.position.x, body.position.y);
+            if matches!(entity, phase_model::Entity::Agent(_)) {
+                let degrees = (body.angle.to_degrees() + 90.0).rem_euclid(360.0);
+                text += &format!(", {degrees:.0}");
+            }
+        }
+    }
+    text
+}

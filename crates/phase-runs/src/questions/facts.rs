@@ -1,0 +1,185 @@
+//! Everything that is known of events: what they hold, and what is simulated for questions about them.
+
+use crate::{
+    engine,
+    error::RunError,
+    interrupt,
+    source::{EventInput, track},
+};
+use core::ops::ControlFlow;
+use phase_dataset::{
+    manifest::{MANIFEST_FILE, Manifest},
+    splits::Split,
+};
+use phase_event::{Recording, SimulationRecord};
+use phase_evidence::Track;
+use phase_model::{AgentId, Attitude, State};
+use phase_questions::{Alternative, Facts, Inside, SimulatedFutures, believed_rooms, idle_of};
+use phase_sim::{Simulation, SimulationSettings};
+use std::{
+    collections::{BTreeMap, BTreeSet},
+    path::Path,
+};
+
+/// Futures that are simulated from one state.
+const FUTURES: usize = 4;
+/// Steps that they last: four seconds of video.
+const FUTURE_STEPS: usize = 16;
+/// Most simulations of a search in them.
+const FUTURE_SIMULATIONS: usize = 200;
+
+/// Events that belong together: one, or those of a set.
+#[derive(Debug)]
+pub(super) struct Unit {
+    pub(super) set: Option<String>,
+    /// Indices in the source.
+    pub(super) events: Vec<usize>,
+}
+
+/// The units of a dataset or file, in its order; of a dataset with splits only the events of one.
+pub(super) fn units(path: &Path, source: &EventInput, split: Option<Split>) -> Result<Vec<Unit>, RunError> {
+    let manifest = path.join(MANIFEST_FILE);
+    let mut sets = BTreeMap::new();
+    let mut left_out = BTreeSet::new();
+    if manifest.is_file() {
+        for event in Manifest::read(&manifest)?.events {
+            if split.is_some() && event.split.is_some() && event.split != split {
+                left_out.insert(event.id.clone());
+            }
+            if let Some(place) = event.set {
+                sets.insert(event.id, place.set);
+            }
+        }
+    }
+    let mut units: Vec<Unit> = Vec::new();
+    for index in (0..source.len()).filter(|&index| !left_out.contains(source.id(index))) {
+        let set = sets.get(source.id(index)).cloned();
+        match units.last_mut() {
+            Some(last) if set.is_some() && last.set == set => last.events.push(index),
+            _ => units.push(Unit { set, events: vec![index] }),
+        }
+    }
+    Ok(units)
+}
+
+/// The facts of a unit; `None` if interrupted. Its events share simulations without the agent that differs.
+pub(super) fn of_unit(
+    path: &Path,
+    source: &EventInput,
+    unit: &Unit,
+    ratings: &BTreeMap<String, [usize; 3]>,
+) -> Result<Option<Vec<Facts>>, RunError> {
+    let mut known: Vec<(AgentId, phase_model::Scene, Track)> = Vec::new();
+    let mut all = Vec::with_capacity(unit.events.len());
+    for &index in &unit.events {
+        let recording = source.load(index)?;
+        let mut facts = Facts {
+            id: recording.id.clone(),
+            set: unit.set.clone(),
+            scene: recording.scene.clone(),
+            track: track(&recording),
+            inside: None,
+            ratings: ratings.get(&recording.id).copied(),
+        };
+        if let Some(simulation) = &recording.simulation {
+            let settings = settings(path, &recording, simulation)?;
+            let Some(inside) = inside(&facts, simulation, &settings, &mut known)? else { return Ok(None) };
+            facts.inside = Some(inside);
+        }
+        all.push(facts);
+    }
+    Ok(Some(all))
+}
+
+fn settings(
+    path: &Path,
+    recording: &Recording,
+    simulation: &SimulationRecord,
+) -> Result<SimulationSettings, RunError> {
+    SimulationSettings::read(&simulation.settings, "settings").map_err(|source| {
+        RunError::SimulationSettings { file: path.to_owned(), id: recording.id.clone(), source }
+    })
+}
+
+fn inside(
+    facts: &Facts,
+    simulation: &SimulationRecord,
+    settings: &SimulationSettings,
+    known: &mut Vec<(AgentId, phase_model::Scene, Track)>,
+) -> Result<Option<Inside>, RunError> {
+    let event = &simulation.event;
+    let objects = event.scene.objects.len();
+    let beliefs =
+        AgentId::ALL.map(|agent| believed_rooms(&phase_sim::beliefs(event, agent, &settings.minds), objects));
+    let idle = idle_of(facts);
+    // What an idle agent wants makes no difference.
+    let mut scene = event.scene.clone();
+    scene.agents[idle].attitude = Attitude::Neutral;
+    scene.agents[idle].goal = scene.agents[idle.other()].goal;
+    let same = known.iter().find(|(agent, other, _)| *agent == idle && *other == scene);
+    let without = if let Some((_, _, track)) = same {
+        track.clone()
+    } else {
+        let settings = SimulationSettings { idle: Some(idle), ..*settings };
+        let go_on = &mut |_: &phase_event::Step| interrupt::goes_on();
+        let idle_scene = {
+            let mut scene = event.scene.clone();
+            scene.agents[idle].attitude = Attitude::Neutral;
+            scene
+        };
+        let Some(event) = engine::simulate(&facts.id, &idle_scene, event.seed, &settings, go_on)? else {
+            return Ok(None);
+        };
+        let track = Track::of_event(&event);
+        known.push((idle, scene, track.clone()));
+        track
+    };
+    let Some(futures) = futures(facts, simulation, settings)? else { return Ok(None) };
+    Ok(Some(Inside {
+        states: Inside::states_of(event),
+        beliefs,
+        without: Some(Alternative { idle, track: without }),
+        futures,
+    }))
+}
+
+/// Futures from the middle of an event: both minds have perceived what happened, with other random numbers.
+/// The outer `None` means interrupted; the inner one that the event is too short.
+fn futures(
+    facts: &Facts,
+    simulation: &SimulationRecord,
+    settings: &SimulationSettings,
+) -> Result<Option<Option<SimulatedFutures>>, RunError> {
+    let event = &simulation.event;
+    let cut = event.steps.len() / 2;
+    if cut == 0 || cut + FUTURE_STEPS > event.steps.len() {
+        return Ok(Some(None));
+    }
+    let fail = |source| RunError::Simulation { id: facts.id.clone(), source };
+    let minds = settings.minds.with_simulations(FUTURE_SIMULATIONS);
+    let never = usize::MAX;
+    let settings = SimulationSettings {
+        max_steps: cut + FUTURE_STEPS,
+        rest_steps: never,
+        still_steps: never,
+        minds,
+        ..*settings
+    };
+    let mut ends: Vec<State> = Vec::with_capacity(FUTURES);
+    for k in 0..FUTURES as u64 {
+        let seed = crate::engine::event_seed(event.seed, 1 + k as usize);
+        let mut simulation = Simulation::new(&event.scene, seed, &settings).map_err(fail)?;
+        for step in 0..cut + FUTURE_STEPS {
+            if let ControlFlow::Break(()) = interrupt::goes_on() {
+                return Ok(None);
+            }
+            let given = match event.steps.get(step).filter(|_| step < cut) {
+                Some(step) => step.actions.map(Some),
+                None => [None; 2],
+            };
+            simulation.step(given).map_err(fail)?;
+        }
+        ends.push(*simulation.state());
+    }
+    Ok(Some(Some(SimulatedFutures { step: cut, steps: FUTURE_STEPS, ends })))
+}

@@ -1,0 +1,272 @@
+//! A benchmark of questions about events, in the forms that evaluators of language and vision-language models
+//! read.
+
+mod answers;
+mod facts;
+mod forms;
+mod scoring;
+mod videos;
+
+pub(crate) use scoring::questions;
+pub use scoring::{Scored, score_file};
+
+use crate::{
+    effort::MindChoice,
+    error::RunError,
+    eval::{methods::recogniser, task::event_seed},
+    interrupt,
+    laboratory::{Opened, clips::source_digest, open, unusable},
+    listener::Listener,
+    parallel::make_all,
+    source::EventInput,
+    words,
+};
+use answers::Watcher;
+use core::ops::ControlFlow;
+use phase_dataset::splits::Split;
+use phase_files::{atomic, run::Run};
+use phase_model::{
+    State,
+    arena::SUBSTEPS,
+    random::{Purpose, stream},
+    words::Names,
+};
+use phase_questions::{Facts, Query, Question, frames_needed};
+use serde_json::{Value, json};
+use std::{
+    collections::{BTreeMap, BTreeSet},
+    path::PathBuf,
+};
+use videos::Shown;
+
+/// The description of a benchmark; written last.
+pub const INDEX_FILE: &str = "questions.json";
+/// The questions, one a line.
+pub const QUESTIONS_FILE: &str = "questions.jsonl";
+/// The value of the field `format` of the description.
+const FORMAT: &str = "phase-questions/1";
+
+/// A run that asks questions about events.
+#[derive(Clone, Debug)]
+pub struct QuestionRun {
+    /// Datasets, folders or files with events. Names of events are unique among all.
+    pub events: Vec<PathBuf>,
+    /// Only the events of this part, of datasets that are divided.
+    pub split: Option<Split>,
+    /// Ratings of events by people, in the form `phase-ratings/1`.
+    pub ratings: Option<PathBuf>,
+    /// The method that certifies numbers of frames for questions about relations and goals.
+    pub certify: String,
+    /// Methods whose answers are written, too.
+    pub answers: Vec<String>,
+    /// Side of the pictures (pixels), even; no videos for 0.
+    pub side: u32,
+    /// Random seed of words and orders.
+    pub seed: u64,
+    /// The folder to write.
+    pub out: PathBuf,
+    /// Number of events at once.
+    pub threads: usize,
+}
+
+/// A benchmark that is there.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Asked {
+    /// Number of questions of each type, types without any included.
+    pub types: Vec<(&'static str, usize)>,
+    /// Number of videos.
+    pub videos: usize,
+    /// Whether it was made now.
+    pub is_new: bool,
+}
+
+/// A video: its events, and the last step that it shows.
+type Video = (Vec<String>, Option<usize>);
+
+impl QuestionRun {
+    /// Makes the questions, their videos, and the files of every evaluator.
+    ///
+    /// # Errors
+    /// If the events or the folder cannot be used, an event cannot be simulated, a file cannot be written, or
+    /// a stop was requested. An interrupted run begins anew.
+    pub fn run(&self, listener: &dyn Listener) -> Result<Asked, RunError> {
+        let sources = self.events.iter().map(|path| EventInput::open(path, &[], listener));
+        let sources: Vec<EventInput> = sources.collect::<Result<_, _>>()?;
+        let digests = sources.iter().map(source_digest).collect::<Result<Vec<_>, _>>()?;
+        let run = Run::new([
+            ("command", "questions".into()),
+            ("events", json!(digests)),
+            ("split", json!(self.split.map(Split::name))),
+            ("ratings", self.ratings_digest()?),
+            ("certify", self.certify.as_str().into()),
+            ("answers", json!(self.answers)),
+            ("side", self.side.into()),
+            ("seed", self.seed.into()),
+        ]);
+        let folder = match open(&self.out, INDEX_FILE, &run)? {
+            Opened::Done(done) => {
+                let count = |name: &str| done["types"][name].as_u64().unwrap_or_default() as usize;
+                let types = Query::TYPES.map(|name| (name, count(name))).to_vec();
+                let videos = done["videos"].as_u64().unwrap_or_default() as usize;
+                return Ok(Asked { types, videos, is_new: false });
+            }
+            Opened::Open(folder) => folder,
+        };
+        let facts = self.facts(&sources, listener)?;
+        let mut random = stream(self.seed, Purpose::Evaluation, 0);
+        let mut all = phase_questions::questions(&facts, &Names::PAPER, &mut random);
+        if all.is_empty() {
+            return Err(unusable(
+                &self.events[0],
+                "no question can be asked: every answer has to be as frequent as any other",
+            ));
+        }
+        let by_id: BTreeMap<&str, &Facts> = facts.iter().map(|it| (it.id.as_str(), it)).collect();
+        let certifying = self.watcher(&self.certify, &by_id, &all, listener)?;
+        for question in &mut all {
+            let until = question.until;
+            question.frames = frames_needed(question, |event, budget| certifying.watch(event, until, budget));
+        }
+        let mut names: BTreeMap<String, Video> = BTreeMap::new();
+        for question in &all {
+            names.insert(question.video.clone(), (question.events.clone(), question.until));
+        }
+        if self.side > 0 {
+            self.videos(&names, &sources, listener)?;
+        }
+        let mut lines = String::new();
+        for question in &all {
+            lines += &line(question)?;
+        }
+        atomic::write(&self.out.join(QUESTIONS_FILE), lines.as_bytes())?;
+        let types: Vec<(&'static str, usize)> = Query::TYPES
+            .map(|name| (name, all.iter().filter(|it| it.query.type_name() == name).count()))
+            .to_vec();
+        forms::write(&self.out, &all, &by_id, self.side > 0, self.seed)?;
+        let mut rows = Vec::new();
+        for method in &self.answers {
+            let watcher = if *method == self.certify {
+                None
+            } else {
+                Some(self.watcher(method, &by_id, &all, listener)?)
+            };
+            let watcher = watcher.as_ref().unwrap_or(&certifying);
+            rows.push(answers::write(&self.out, method, &all, watcher, self.seed)?);
+        }
+        rows.push(answers::write_guesses(&self.out, &all, self.seed)?);
+        let count: BTreeMap<&str, usize> = types.iter().copied().collect();
+        let index = json!({
+            "format": FORMAT, "run": run, "questions": all.len(), "types": count, "videos": names.len(),
+            "certified_by": self.certify, "answers": rows,
+        });
+        atomic::write_json(&self.out.join(INDEX_FILE), &index)?;
+        folder.finish()?;
+        Ok(Asked { types, videos: names.len(), is_new: true })
+    }
+
+    fn ratings_digest(&self) -> Result<Value, RunError> {
+        let bytes = self.ratings.as_deref().map(phase_files::json::bytes).transpose()?;
+        Ok(json!(bytes.map(|bytes| phase_files::checksum::sha256_hex(&bytes))))
+    }
+
+    /// Everything that is known of all events.
+    fn facts(&self, sources: &[EventInput], listener: &dyn Listener) -> Result<Vec<Facts>, RunError> {
+        let ratings = match &self.ratings {
+            Some(file) => scoring::ratings(file)?,
+            None => BTreeMap::new(),
+        };
+        let mut all: Vec<Facts> = Vec::new();
+        let mut known = BTreeSet::new();
+        for (path, source) in self.events.iter().zip(sources) {
+            let units = facts::units(path, source, self.split)?;
+            let count: usize = units.iter().map(|unit| unit.events.len()).sum();
+            let progress = listener.progress_over(&format!("looking into {}", words::events(count)), count);
+            let made = make_all(self.threads, units.len(), |index| {
+                let unit = facts::of_unit(path, source, &units[index], &ratings);
+                progress.steps(units[index].events.len());
+                unit
+            })?;
+            let made = made.ok_or_else(|| RunError::Interrupted(self.out.clone()))?;
+            for facts in made.into_iter().flatten() {
+                if !known.insert(facts.id.to_ascii_lowercase()) {
+                    return Err(unusable(path, &format!("event {} is in another input, too", facts.id)));
+                }
+                all.push(facts);
+            }
+        }
+        Ok(all)
+    }
+
+    /// The judgements of a method about everything that questions show.
+    fn watcher<'a>(
+        &self,
+        method: &str,
+        facts: &BTreeMap<&str, &'a Facts>,
+        all: &[Question],
+        listener: &dyn Listener,
+    ) -> Result<Watcher<'a>, RunError> {
+        let recogniser = recogniser(method, None, &MindChoice::default())?;
+        let all_frames_only = method != self.certify;
+        let shown: BTreeSet<(&str, Option<usize>)> = all
+            .iter()
+            .flat_map(|question| question.events.iter().map(|event| (event.as_str(), question.until)))
+            .collect();
+        let shown: Vec<(&'a Facts, Option<usize>)> =
+            shown.into_iter().filter_map(|(event, until)| Some((*facts.get(event)?, until))).collect();
+        let progress =
+            listener.progress_over(&format!("asking {method} about {} videos", shown.len()), shown.len());
+        let judged = make_all(self.threads, shown.len(), |index| {
+            let (facts, until) = shown[index];
+            let seed = event_seed(self.seed, &facts.id);
+            let judged =
+                answers::judge(recogniser.as_ref(), facts, until, all_frames_only, seed, &mut || {
+                    if interrupt::requested() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+                });
+            progress.steps(1);
+            judged
+        })?;
+        let judged = judged.ok_or_else(|| RunError::Interrupted(self.out.clone()))?;
+        Ok(Watcher::new(shown, judged))
+    }
+
+    fn videos(
+        &self,
+        names: &BTreeMap<String, Video>,
+        sources: &[EventInput],
+        listener: &dyn Listener,
+    ) -> Result<(), RunError> {
+        let places: BTreeMap<&str, (usize, usize)> = sources
+            .iter()
+            .enumerate()
+            .flat_map(|(k, source)| (0..source.len()).map(move |index| (source.id(index), (k, index))))
+            .collect();
+        let names: Vec<(&String, &Video)> = names.iter().collect();
+        let progress = listener.progress_over(&format!("drawing {} videos", names.len()), names.len());
+        let made = make_all(self.threads, names.len(), |index| {
+            let (name, (events, until)) = names[index];
+            if interrupt::requested() {
+                return Ok(None);
+            }
+            let shown =
+                events.iter().filter_map(|event| places.get(event.as_str())).map(|&(source, index)| {
+                    let recording = sources[source].load(index)?;
+                    let frames = until.map_or(usize::MAX, |step| step * SUBSTEPS + 1);
+                    let states: Vec<State> = recording.frames().take(frames).collect();
+                    Ok(Shown { physics: recording.scene.physics(), states })
+                });
+            let shown: Vec<Shown> = shown.collect::<Result<_, RunError>>()?;
+            videos::write(&self.out, name, &shown, self.side, event_seed(self.seed, name))?;
+            progress.steps(1);
+            Ok(Some(()))
+        })?;
+        drop(progress);
+        made.map(|_| ()).ok_or_else(|| RunError::Interrupted(self.out.clone()))
+    }
+}
+
+/// A value as a line of a JSONL file.
+fn line(value: &impl serde::Serialize) -> Result<String, RunError> {
+    let text = serde_json::to_string(value);
+    let text = text.map_err(|source| RunError::Serialise { what: "a question", source })?;
+    Ok(text + "\n")
+}
