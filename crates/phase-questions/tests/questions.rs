@@ -21,11 +21,15 @@ fn scene(kind: &str, alpha: i8, landmark: usize) -> Scene {
         )
     };
     let own = format!(r#"{{"kind": "agent_on_landmark", "agent": 0, "landmark": {landmark}, "sign": 1}}"#);
-    let first = if alpha == 0 { &own } else { &goal };
+    let first = match alpha {
+        0 => own,
+        1 => goal.clone(),
+        _ => goal.replace("\"sign\": 1", "\"sign\": -1"),
+    };
     Scene::from_json(&format!(
         r#"{{"layout": {{"base": 0}}, "agents": [{}, {}], "objects": [{{"size_level": 1, "start": {{"x": 12, "y": 5}}}}],
             "event": "{kind}"}}"#,
-        agent(alpha, 8.0, first),
+        agent(alpha, 8.0, &first),
         agent(0, 20.0, &goal),
     ))
     .expect("a scene")

@@ -15,7 +15,7 @@ pub struct NewScene {
     /// The base layout, 0 to 21 [default: one that fits the kind]
     #[arg(long, value_name = "N", value_parser = value_parser!(u8).range(0..=21))]
     pub layout: Option<u8>,
-    /// Level of reasoning, 0, 1 or 2, of agents that do not know each other's goals [default: they know]
+    /// Level of reasoning, 0 to 2, of agents that do not know each other's goals [default: they know]
     #[arg(long, value_name = "L", value_parser = level)]
     pub level: Option<Level>,
     /// Seed of what is drawn: goals, sizes, strengths, places

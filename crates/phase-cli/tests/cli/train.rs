@@ -130,16 +130,17 @@ fn a_training_that_was_broken_off_goes_on_to_the_same_weights() {
         .stderr(Stdio::piped())
         .spawn()
         .unwrap();
-    // The first checkpoint is written before its round is reported; a note and the head come before it.
-    let told = BufReader::new(child.stderr.take().unwrap()).lines().take(3).count();
+    // The first checkpoint is written before its round is reported; what is read and the head come before it.
+    let told = BufReader::new(child.stderr.take().unwrap()).lines().take(6).count();
     child.kill().unwrap();
     child.wait().unwrap();
-    assert_eq!(told, 3);
+    assert_eq!(told, 6);
     let checkpoint = format!("{broken}.checkpoint");
     let (code, text) = train(&[&options(&broken)[..], &["--seed", "2"]].concat());
     let reason = "belongs to a training with another seed; give the options of that training, choose another \
         file or remove this one";
-    assert_eq!((code, text), (Some(2), format!("reading the events\nerror: {checkpoint}: {reason}\n")));
+    let read = "reading train events\n1/1 train\nreading validation events\n1/1 validation\n";
+    assert_eq!((code, text), (Some(2), format!("{read}error: {checkpoint}: {reason}\n")));
     let (code, said) = train(&options(&broken));
     assert!(code == Some(0) && said.contains("continuing after round "), "{said}");
     assert!(fs::read(&straight).unwrap() == fs::read(&broken).unwrap());

@@ -107,12 +107,14 @@ fn schema(column: &TableColumn) -> String {
     };
     match column.values {
         TableValues::Texts(_) => format!("required binary {name} (STRING); "),
-        TableValues::Numbers(_) | TableValues::Classes(..) => format!("required int64 {name}; "),
+        TableValues::Numbers(_) => format!("required int64 {name}; "),
+        // `datasets` takes its description of a column for that of the file only where values may be missing.
+        TableValues::Classes(..) => format!("optional int64 {name}; "),
         TableValues::Reals(_) => format!("required double {name}; "),
         TableValues::TextLists(_) => list("binary element (STRING)"),
         TableValues::RealLists(_) => list("double element"),
         TableValues::Videos(_) => {
-            format!("required group {name} {{ required binary bytes; required binary path (STRING); }} ")
+            format!("optional group {name} {{ optional binary bytes; optional binary path (STRING); }} ")
         }
     }
 }
@@ -143,7 +145,9 @@ fn write_column<W: Write + Send>(
         }
         TableValues::Numbers(all) | TableValues::Classes(_, all) => {
             if let Some(mut column) = group.next_column()? {
-                column.typed::<Int64Type>().write_batch(&all[range], None, None)?;
+                let present = vec![1; range.len()];
+                let definition = matches!(values, TableValues::Classes(..)).then_some(&present[..]);
+                column.typed::<Int64Type>().write_batch(&all[range], definition, None)?;
                 column.close()?;
             }
         }
@@ -167,13 +171,16 @@ fn write_column<W: Write + Send>(
         }
         TableValues::Videos(all) => {
             let bytes: Vec<ByteArray> = all[range.clone()].iter().map(|(_, bytes)| bytes.clone()).collect();
-            texts(group, &bytes, None)?;
-            texts(group, &all[range].iter().map(|(name, _)| text(name)).collect::<Vec<_>>(), None)?;
+            let names: Vec<ByteArray> = all[range].iter().map(|(name, _)| text(name)).collect();
+            let present = || Some((vec![2; names.len()], Vec::new()));
+            texts(group, &bytes, present())?;
+            texts(group, &names, present())?;
         }
     }
     Ok(())
 }
 
+/// Definition levels, and repetition levels, of which there are none outside of lists.
 type Levels = (Vec<i16>, Vec<i16>);
 
 fn texts<W: Write + Send>(
@@ -183,6 +190,7 @@ fn texts<W: Write + Send>(
 ) -> Result<()> {
     let Some(mut column) = group.next_column()? else { return Ok(()) };
     let (definition, repetition) = match &levels {
+        Some((definition, repetition)) if repetition.is_empty() => (Some(&definition[..]), None),
         Some((definition, repetition)) => (Some(&definition[..]), Some(&repetition[..])),
         None => (None, None),
     };

@@ -28,7 +28,7 @@ pub struct CheckBehaviour {
     /// Folder with other scenes
     #[arg(long, value_name = "DIR")]
     pub scenes: Option<PathBuf>,
-    /// Level of reasoning, 0, 1 or 2, of agents that do not know each other's goals [default: they know]
+    /// Level of reasoning, 0 to 2, of agents that do not know each other's goals [default: they know]
     #[arg(long, value_name = "L", value_parser = level)]
     pub level: Option<Level>,
     /// JSON file of parameters of the minds, as of `check-minds`; options that say otherwise prevail
