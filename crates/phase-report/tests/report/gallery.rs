@@ -142,7 +142,7 @@ fn five_hundred_events_make_a_page_of_reasonable_size() {
     let event = manifest.events[0].clone();
     let numbered = |k| EventEntry { id: format!("demo-{k:04}"), ..event.clone() };
     manifest.events = (0..500).map(numbered).collect();
-    let timelines = vec![Timeline::of(&plain_event(100)); 500];
+    let timelines = vec![Timeline::of(&plain_event(100)); EVENTS_PER_PAGE];
     let text = page(&manifest, &timelines);
     assert_eq!(text.matches("<video").count(), 500);
     assert_eq!(text.matches(" src=").count(), 0, "no video is loaded at once");
