@@ -27,7 +27,7 @@ pub struct Measured {
 pub struct Moment {
     /// Time since the first frame (s of video).
     pub seconds: f64,
-    /// Bodies in the order of [`Tracker::bodies`].
+    /// Bodies, those of agents first.
     pub bodies: Vec<Measured>,
 }
 
