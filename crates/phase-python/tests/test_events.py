@@ -447,6 +447,28 @@ def test_pictures_and_videos(event, tmp_path):
         event.save_video(tmp_path / "no" / "event.mp4")
 
 
+def test_a_video_is_read_as_it_was_drawn(event, tmp_path):
+    """Layout, sizes, places and headings are those of the event, within a tenth of a unit and some degrees."""
+    video = tmp_path / "event.mp4"
+    event.save_video(video, side=400)
+    seen = phase.track(video)
+    assert (seen.layout, list(seen.size_levels)) == (event.observed.layout, list(event.observed.size_levels))
+    truth = event.observed.trajectory
+    rows = min(len(truth), len(seen.trajectory))
+    assert abs(len(truth) - len(seen.trajectory)) <= 1
+    off = np.linalg.norm(seen.trajectory[:rows, :, :2] - truth[:rows, :, :2], axis=-1)
+    assert np.median(off) < 0.05 and np.quantile(off, 0.99) < 0.3, (np.median(off), off.max())
+    turned = np.angle(np.exp(1j * (seen.trajectory[:rows, :2, 4] - truth[:rows, :2, 4])))
+    assert np.quantile(np.abs(turned), 0.95) < np.radians(6)
+    assert phase.infer(seen, method="intent-network") is not None
+    with pytest.raises(phase.PhaseError, match="frame_rate"):
+        phase.track(video, frame_rate=7)
+    with pytest.raises(phase.PhaseError, match="uint8"):
+        phase.track(np.zeros((3, 8, 8, 3)))
+    with pytest.raises(phase.PhaseError):
+        phase.track(np.zeros((30, 64, 64, 3), np.uint8))
+
+
 def test_what_fails_leaves_the_old_file(event, tmp_path):
     """A file is written whole or not at all, and nothing else remains."""
     video, file, many = (tmp_path / name for name in ("event.mp4", "event.json", "events.json"))
