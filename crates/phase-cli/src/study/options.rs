@@ -139,9 +139,9 @@ pub struct CountRatings {
     /// with the array of each participant in a line
     #[arg(value_name = "FILE", required = true)]
     pub files: Vec<PathBuf>,
-    /// Catch trials (those with `expected`) that a participant who counts may fail
-    #[arg(long, value_name = "N", default_value_t = 0)]
-    pub catch_failures_allowed: usize,
+    /// Catch trials (those with `expected`) that a participant who counts may fail, 0 to 1000
+    #[arg(long, value_name = "N", default_value_t = 0, value_parser = value_parser!(u32).range(0..=1000))]
+    pub catch_failures_allowed: u32,
     /// File for the ratings
     #[arg(long, value_name = "FILE", default_value = "ratings.json")]
     pub out: PathBuf,

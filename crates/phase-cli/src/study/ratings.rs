@@ -8,7 +8,7 @@ use serde_json::{Map, json};
 use std::path::Path;
 
 pub(super) fn run(arguments: &CountRatings) -> Result<(), CliError> {
-    let (out, allowed) = (&arguments.out, arguments.catch_failures_allowed);
+    let (out, allowed) = (&arguments.out, arguments.catch_failures_allowed as usize);
     let mut all = Vec::new();
     for file in &arguments.files {
         all.extend(of_file(file)?);
