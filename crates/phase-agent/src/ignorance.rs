@@ -32,11 +32,11 @@ pub(crate) struct Social<'a> {
 impl<D> Ignorance<D> {
     /// The subgoal to pursue; `None` if there is none, or if the agent had better watch the other first.
     ///
-    /// What a helper or hinderer does in vain may do the opposite of what it wants. If it reasons about the
-    /// other's mind it thus pursues a subgoal only once enough of the particles have intents that suggest it;
-    /// where bodies are does not have to be certain. How many are enough falls with the time that it has
-    /// watched, so that an agent that learns nothing more tries. A hinderer of level 2 also waits while it is
-    /// seen.
+    /// A helper or hinderer with a wrong idea of the other may bring about the opposite of what it wants. So
+    /// one that reasons about the other's mind pursues a subgoal only once enough of the particles have
+    /// intents that suggest it; where bodies are does not have to be certain. How many are enough falls with
+    /// the time that it has watched, so that an agent that learns nothing more tries. A hinderer of level 2
+    /// also waits while it is seen.
     pub(crate) fn best<'c>(
         &self,
         who: &Social<'_>,

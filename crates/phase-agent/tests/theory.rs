@@ -1,4 +1,4 @@
-//! What an agent learns of another's mind from its motion.
+//! Beliefs of an agent about another's mind, learnt from its motion.
 
 use phase_agent::{PhaseParameters, TheoryOfMind};
 use phase_forward::Forward;

@@ -294,7 +294,7 @@ fn thoughts_tell_what_ignorant_agents_believe_and_beliefs_can_be_recomputed() {
     assert!(knowing.steps.iter().flat_map(|step| &step.thoughts).all(|thought| thought.intents.is_empty()));
 }
 
-/// What an ignorant helper does must not depend on the other's goal before it has seen the other move.
+/// An ignorant helper acts the same whatever the other's goal, until it has seen the other move.
 #[test]
 fn ignorant_agents_do_not_know_what_the_scene_says() {
     let first = ignorant(EventKind::Helping, Level::One);

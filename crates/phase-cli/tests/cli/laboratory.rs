@@ -42,7 +42,7 @@ fn valid_bids(folder: &Path) {
     assert_eq!(found["issues"]["issues"], serde_json::json!([]));
 }
 
-/// What ffprobe (FFmpeg) reads in a clip.
+/// Checks that ffprobe (FFmpeg) reads a clip as a video of so many frames.
 fn valid_video(file: &Path, frames: usize) {
     let shown = "stream=codec_name,codec_type,pix_fmt,avg_frame_rate,nb_read_frames";
     let arguments = ["-v", "error", "-count_frames", "-show_entries", shown, "-of", "json"];

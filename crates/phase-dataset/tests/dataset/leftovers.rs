@@ -4,8 +4,8 @@ use crate::verify::{dataset, found};
 use phase_dataset::verify::{Check, verify_with};
 use std::{fs, path::Path};
 
-/// What systems, Git and programs that download datasets leave is told apart from damage; under the same
-/// names, links, folders and our own leftovers are damage.
+/// Leftovers of systems, of Git and of programs that download datasets are told apart from damage; under
+/// the same names, links, folders and our own leftovers are damage.
 #[test]
 fn what_systems_leave_is_no_damage() {
     let folder = tempfile::tempdir().expect("a folder");

@@ -4,7 +4,7 @@ use phase_eval::ratings::{RatingCounts, ratings as read_ratings};
 use phase_study::export::{JsPsychError, participants, ratings_of};
 use serde_json::{Value, json};
 
-/// What `jsPsych.data.get().csv()` of jsPsych 8 makes of a video, a rating and a catch trial that is passed.
+/// Output of `jsPsych.data.get().csv()` of jsPsych 8 for a video, a rating and a catch trial that is passed.
 const CSV: &str = concat!(
     "\"trial_type\",\"trial_index\",\"video\",\"rt\",\"form\",\"event\",\"response\",\"correct\"\r\n",
     "\"phase-video\",\"0\",\"a.mp4\",\"3\",\"\",\"\",\"\",\"\"\r\n",
