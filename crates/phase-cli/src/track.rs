@@ -22,11 +22,11 @@ pub struct TrackOptions {
     /// Name of the event [default: the name of the input]
     #[arg(long, value_name = "ID")]
     pub id: Option<String>,
-    /// Pictures a second in folders of PNG pictures, 8 to 240
-    #[arg(long, value_name = "N", default_value_t = 20, value_parser = value_parser!(u32).range(8..=240))]
+    /// Pictures a second in folders of PNG pictures, 4 to 240
+    #[arg(long, value_name = "N", default_value_t = 20, value_parser = value_parser!(u32).range(4..=240))]
     pub frame_rate: u32,
-    /// Meaning of frames: the motion itself, or rows with bodies drawn straight from row to row [default:
-    /// what the motion looks like]
+    /// Meaning of frames: the motion itself, rows with bodies drawn straight from row to row, or rows each of
+    /// which is held until the next [default: what the motion looks like]
     #[arg(long, value_name = "KIND", value_parser = named(MEANINGS, name_of))]
     pub frames: Option<FrameMeaning>,
     /// The colours of agent 0, agent 1 and the objects, as #rrggbb or by name, with commas between
@@ -70,12 +70,13 @@ pub struct TableArguments {
     pub layout: Layout,
 }
 
-const MEANINGS: [FrameMeaning; 2] = [FrameMeaning::Substeps, FrameMeaning::Rows];
+const MEANINGS: [FrameMeaning; 3] = [FrameMeaning::Substeps, FrameMeaning::Rows, FrameMeaning::Held];
 
 const fn name_of(meaning: FrameMeaning) -> &'static str {
     match meaning {
         FrameMeaning::Substeps => "motion",
         FrameMeaning::Rows => "rows",
+        FrameMeaning::Held => "held",
     }
 }
 

@@ -9,6 +9,11 @@ use phase_model::{
     arena::{self, LANDMARK_HALF_SIDE, LANDMARKS},
 };
 
+/// Lines of one direction that may be edges of the arena: half of them from either side.
+const MOST_PEAKS: usize = 8;
+/// Squares of lines that may be the arena.
+const MOST_FRAMES: usize = 16;
+
 /// Place and scale of the arena in the picture.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct View {
@@ -73,7 +78,23 @@ pub(crate) struct Stage {
 impl Stage {
     /// Finds the arena. `frame` is the picture's number.
     pub(crate) fn find(picture: &Picture<'_>, frame: usize) -> Result<Self, TrackError> {
-        let (view, half_wall) = frame_of(picture).ok_or(TrackError::NoArena { frame })?;
+        let mut refusal = TrackError::NoArena { frame };
+        let mut best: Option<(f32, Self)> = None;
+        for (view, half_wall) in frames_of(picture) {
+            match Self::in_frame(picture, view, half_wall) {
+                // Axes around the arena also make a square; walls then fit less well.
+                Ok((agreeing, stage)) if best.as_ref().is_none_or(|(most, _)| agreeing > most + 0.005) => {
+                    best = Some((agreeing, stage));
+                }
+                Ok(_) => {}
+                Err(error) => refusal = error,
+            }
+        }
+        best.map(|(_, stage)| stage).ok_or(refusal)
+    }
+
+    /// The stage in a square of lines, and the share of places at which the picture agrees with its layout.
+    fn in_frame(picture: &Picture<'_>, view: View, half_wall: f32) -> Result<(f32, Self), TrackError> {
         let everywhere = |_: Vec2| true;
         let (floor, noise) = main_colour(picture, view, everywhere);
         let landmarks = LANDMARKS.map(|centre| main_colour(picture, view, |point| on(centre, point)).0);
@@ -85,8 +106,9 @@ impl Stage {
             noise,
             half_wall,
         };
-        stage.layout = stage.layout_of(picture)?;
-        Ok(stage)
+        let (agreeing, layout) = stage.layout_of(picture)?;
+        stage.layout = layout;
+        Ok((agreeing, stage))
     }
 
     /// The colour at a world point without bodies.
@@ -107,8 +129,8 @@ impl Stage {
             || distance(colour, self.colour(point, walls)) < near
     }
 
-    /// The layout whose walls are in the picture.
-    fn layout_of(&self, picture: &Picture<'_>) -> Result<Layout, TrackError> {
+    /// The layout whose walls are in the picture, and the share of places that agree.
+    fn layout_of(&self, picture: &Picture<'_>) -> Result<(f32, Layout), TrackError> {
         // Places along the four lines from the centre on which there may be walls, and whether there is one.
         let mut places = Vec::new();
         for direction in [Vec2::Y, Vec2::NEG_X, Vec2::NEG_Y, Vec2::X] {
@@ -147,7 +169,7 @@ impl Stage {
         // A quarter of one of the four lines is a sixteenth of all places.
         match best {
             Some((agreeing, layout)) if 100 * agreeing >= 97 * places.len() && places.len() > 100 => {
-                Ok(layout)
+                Ok((agreeing as f32 / places.len() as f32, layout))
             }
             _ => Err(TrackError::Walls),
         }
@@ -207,8 +229,8 @@ fn main_colour(picture: &Picture<'_>, view: View, is_part: impl Fn(Vec2) -> bool
     (mean.map(|mean| mean as f32), (variance.max(0.0) / 3.0).sqrt() as f32)
 }
 
-/// The arena's frame: the outermost of the long dark lines. Also half the width of a line (u).
-fn frame_of(picture: &Picture<'_>) -> Option<(View, f32)> {
+/// Squares of long dark lines, the largest first, with half the width of their lines (u).
+fn frames_of(picture: &Picture<'_>) -> Vec<(View, f32)> {
     let (width, height) = picture.size();
     let dark = |x: usize, y: usize| darkness(picture.at(x, y));
     // Bars beside or above the picture.
@@ -229,54 +251,63 @@ fn frame_of(picture: &Picture<'_>) -> Option<(View, f32)> {
         columns.end -= 1;
     }
     if rows.len() < 32 || columns.len() < 32 {
-        return None;
+        return Vec::new();
     }
     // A line at the picture's edge may itself be taken for a bar.
     let rows = if rows.start > 0 && rows.start < 8 { 0..height } else { rows };
     let columns = if columns.start > 0 && columns.start < 8 { 0..width } else { columns };
     let of_columns: Vec<f32> = columns.clone().map(|x| rows.clone().map(|y| dark(x, y)).sum()).collect();
-    let (left, right, wide) = outermost(&of_columns)?;
-    let inside = columns.start + left as usize..(columns.start + right.ceil() as usize + 1).min(width);
-    let of_rows: Vec<f32> = rows.clone().map(|y| inside.clone().map(|x| dark(x, y)).sum()).collect();
-    let (top, bottom, high) = outermost(&of_rows)?;
-    let sides = Vec2::new(right - left, bottom - top);
-    let is_square = (sides.x - sides.y).abs() < 0.03 * sides.max_element();
-    if !is_square || sides.max_element() < 0.25 * columns.len().min(rows.len()) as f32 || sides.x < 60.0 {
-        return None;
+    let least = 0.25 * columns.len().min(rows.len()) as f32;
+    let mut found = Vec::new();
+    for (left, right, wide) in pairs(&of_columns) {
+        let inside = columns.start + left as usize..(columns.start + right.ceil() as usize + 1).min(width);
+        let of_rows: Vec<f32> = rows.clone().map(|y| inside.clone().map(|x| dark(x, y)).sum()).collect();
+        for (top, bottom, high) in pairs(&of_rows) {
+            let sides = Vec2::new(right - left, bottom - top);
+            let is_square = (sides.x - sides.y).abs() < 0.03 * sides.max_element();
+            if !is_square || sides.max_element() < least || sides.x < 60.0 {
+                continue;
+            }
+            let scale = 0.5 * (sides.x + sides.y) / arena::SIDE;
+            let corner = Vec2::new(columns.start as f32 + left, rows.start as f32 + top);
+            let corner = corner + 0.5 * sides - Vec2::splat(0.5 * arena::SIDE * scale);
+            found.push((View { scale, corner }, 0.25 * (wide + high) / scale));
+        }
     }
-    let scale = 0.5 * (sides.x + sides.y) / arena::SIDE;
-    let corner = Vec2::new(columns.start as f32 + left, rows.start as f32 + top);
-    let centre = corner + 0.5 * sides;
-    let corner = centre - Vec2::splat(0.5 * arena::SIDE * scale);
-    Some((View { scale, corner }, 0.25 * (wide + high) / scale))
+    found.sort_by(|a, b| b.0.scale.total_cmp(&a.0.scale));
+    found.truncate(MOST_FRAMES);
+    found
 }
 
-/// The middles of the first and last of the highest peaks of a profile, and the width of both together.
-fn outermost(profile: &[f32]) -> Option<(f32, f32, f32)> {
+/// The middles of two of the highest peaks of a profile, and the mean of their widths.
+fn pairs(profile: &[f32]) -> Vec<(f32, f32, f32)> {
+    let peaks = peaks(profile);
+    let pairs = peaks.iter().enumerate().flat_map(|(k, a)| peaks[k + 1..].iter().map(move |b| (a, b)));
+    pairs.filter(|(a, b)| b.0 - a.0 > 40.0).map(|(a, b)| (a.0, b.0, 0.5 * (a.1 + b.1))).collect()
+}
+
+/// The middles of the highest peaks of a profile, with their widths.
+fn peaks(profile: &[f32]) -> Vec<(f32, f32)> {
     let most = profile.iter().copied().fold(0.0, f32::max);
     if most < 20.0 {
-        return None;
+        return Vec::new();
     }
-    let high = |value: &f32| *value > 0.6 * most;
-    let first = profile.iter().position(high)?;
-    let last = profile.iter().rposition(high)?;
-    let middle = |from: usize, towards: isize| {
-        let mut end = from;
-        while let Some(next) =
-            end.checked_add_signed(towards).filter(|&next| next < profile.len() && high(&profile[next]))
-        {
-            end = next;
-        }
-        let low = from.min(end).saturating_sub(2);
-        let high = (from.max(end) + 2).min(profile.len() - 1);
+    let high = |k: usize| profile[k] > 0.6 * most;
+    let starts = (0..profile.len()).filter(|&k| high(k) && (k == 0 || !high(k - 1)));
+    let peak = |start: usize| {
+        let end = (start..profile.len()).take_while(|&k| high(k)).last().unwrap_or(start);
+        let from = start.saturating_sub(2);
+        let to = (end + 2).min(profile.len() - 1);
         // Landmarks and bodies make a base below the peak.
-        let base = profile[low].max(profile[high]).min(0.4 * most);
+        let base = profile[from].max(profile[to]).min(0.4 * most);
         let above = |k: usize| (profile[k] - base).max(0.0);
-        let total: f32 = (low..=high).map(above).sum();
-        let sum: f32 = (low..=high).map(|k| (k as f32 + 0.5) * above(k)).sum();
+        let total: f32 = (from..=to).map(above).sum();
+        let sum: f32 = (from..=to).map(|k| (k as f32 + 0.5) * above(k)).sum();
         (sum / total, total / (most - base))
     };
-    let (a, wide) = middle(first, 1);
-    let (b, wider) = middle(last, -1);
-    (b - a > 40.0).then_some((a, b, 0.5 * (wide + wider)))
+    let all: Vec<_> = starts.map(peak).collect();
+    let ends = MOST_PEAKS / 2;
+    // The arena's edges are the outermost of all lines, or inside of a few others.
+    let kept = |k: usize| k < ends || k + ends >= all.len();
+    all.iter().enumerate().filter(|(k, _)| kept(*k)).map(|(_, peak)| *peak).collect()
 }

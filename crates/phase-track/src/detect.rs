@@ -10,8 +10,14 @@ use crate::{
 use core::f32::consts::TAU;
 use phase_model::{AGENT_COUNT, MAX_OBJECTS, Segment, Size, Vec2};
 
-/// Width of the outline that our renderer draws (u).
-const OUTLINE: f32 = 0.09;
+/// Widths of outlines inside and outside of a body's edge (u): none, that of our renderer, and a line of some
+/// 1.4 pixels along the edge, as plotting programs draw it.
+const OUTLINES: [[f32; 2]; 3] = [[0.0, 0.0], [0.09, 0.0], [0.04, 0.04]];
+/// Widths of edges (pixels): sharp, or blurred by compression, which keeps fewer pixels of colour than of
+/// brightness.
+const EDGES: [f32; 3] = [SHARP, 2.5, 4.0];
+/// Mean difference of colour inside bodies up to which edges are not looked at more closely.
+const CLEAR: f32 = 18.0;
 /// Least area of a body's plain colour (u²): half that of the smallest.
 const LEAST_AREA: f32 = 0.7;
 /// Directions in which an agent is looked for.
@@ -27,28 +33,38 @@ pub(crate) struct Found {
     pub(crate) fit: Fit,
 }
 
-/// The agents, then the objects.
-pub(crate) fn bodies(picture: &Picture<'_>, stage: &Stage, ground: &[u8]) -> Result<Vec<Found>, TrackError> {
+/// The agents, then the objects; and how wide edges are (pixels).
+pub(crate) fn bodies(
+    picture: &Picture<'_>,
+    stage: &Stage,
+    ground: &[u8],
+) -> Result<(f32, Vec<Found>), TrackError> {
     let walls = stage.layout.walls();
     let patches = patches(picture, stage, &walls);
-    let surroundings =
-        Surroundings { picture, ground, view: stage.view, above: &[], below: &[], others: &[] };
-    let looks =
-        [0.0, OUTLINE].into_iter().flat_map(|outline| [true, false].map(|eyes| Look { outline, eyes }));
-    let mut best: Option<(f32, Vec<Found>)> = None;
-    for look in looks {
-        let found: Vec<Found> =
-            (0..patches.len()).filter_map(|k| identify(&surroundings, &patches, k, look)).collect();
-        let found = reconsider(&surroundings, found);
-        let difference =
-            found.iter().map(|found| found.fit.difference).sum::<f32>() / found.len().max(1) as f32;
-        if best.as_ref().is_none_or(|(least, before)| {
-            found.len() > before.len() || found.len() == before.len() && difference < *least
-        }) {
-            best = Some((difference, found));
+    let mut best: Option<(f32, f32, Vec<Found>)> = None;
+    for soft in EDGES {
+        let surroundings =
+            Surroundings { picture, ground, view: stage.view, soft, above: &[], below: &[], others: &[] };
+        let looks = OUTLINES
+            .into_iter()
+            .flat_map(|[outline, margin]| [true, false].map(|eyes| Look { outline, margin, eyes }));
+        for look in looks {
+            let found: Vec<Found> =
+                (0..patches.len()).filter_map(|k| identify(&surroundings, &patches, k, look)).collect();
+            let found = reconsider(&surroundings, found);
+            let difference =
+                found.iter().map(|found| found.fit.difference).sum::<f32>() / found.len().max(1) as f32;
+            if best.as_ref().is_none_or(|(least, _, before)| {
+                found.len() > before.len() || found.len() == before.len() && difference < *least
+            }) {
+                best = Some((difference, soft, found));
+            }
+        }
+        if best.as_ref().is_some_and(|(least, _, found)| *least < CLEAR && found.len() >= AGENT_COUNT) {
+            break;
         }
     }
-    let found = best.map(|(_, found)| found).unwrap_or_default();
+    let (_, soft, found) = best.unwrap_or_default();
     let (mut agents, mut objects): (Vec<_>, Vec<_>) =
         found.into_iter().partition(|found| found.body.form == Form::Trapezoid);
     if agents.len() != AGENT_COUNT || objects.len() > MAX_OBJECTS {
@@ -58,7 +74,7 @@ pub(crate) fn bodies(picture: &Picture<'_>, stage: &Stage, ground: &[u8]) -> Res
     agents.sort_by(|a, b| hue(a.body.colour).total_cmp(&hue(b.body.colour)));
     objects.sort_by(|a, b| blueness(b.body.colour).total_cmp(&blueness(a.body.colour)));
     agents.append(&mut objects);
-    Ok(agents)
+    Ok((soft, agents))
 }
 
 /// A connected area of one colour.

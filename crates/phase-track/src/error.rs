@@ -61,7 +61,7 @@ pub enum TrackError {
         greatest: f64,
     },
     /// Too few or too many frames a second.
-    #[error("{0:.1} frames a second are too few or too many; there must be 8 to 240")]
+    #[error("{0:.1} frames a second are too few or too many; there must be 4 to 240")]
     Rate(f64),
     /// Less than one step.
     #[error("{frames} frames last {seconds:.2} s; a track needs at least 0.25 s")]

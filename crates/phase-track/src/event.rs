@@ -107,7 +107,7 @@ impl Track {
             noise: noise(&rows),
             frames: self.moments.len() as u32,
             frame_rate: self.frame_rate,
-            straight: meaning == FrameMeaning::Rows,
+            straight: meaning != FrameMeaning::Substeps,
             hidden: hidden as f64 / (self.moments.len() * self.bodies.len()).max(1) as f64,
             deviations: rows.iter().map(|body| body.deviations.clone()).collect(),
         };

@@ -15,6 +15,8 @@ const OTHER: f32 = 45.0;
 const SYSTEMATIC: f32 = 0.12;
 /// Steps of the search stop below this change (pixels).
 const CONVERGED: f32 = 0.01;
+/// Greatest number of steps with edges of one width.
+const MOST_STEPS: usize = 4;
 /// Width of edges in a sharp picture (pixels).
 pub(crate) const SHARP: f32 = 1.2;
 
@@ -26,6 +28,9 @@ pub(crate) struct Fit {
     pub(crate) deviation: [f32; 3],
     /// Root mean square difference of colour inside the body's outline, each pixel's at most [`OUTLIER`].
     pub(crate) difference: f32,
+    /// Difference that the pose leaves unexplained inside of the outline and around it, a pixel of the body
+    /// in sight.
+    pub(crate) unexplained: f32,
     /// Share of the body that no other body covers.
     pub(crate) visible: f32,
 }
@@ -36,6 +41,8 @@ pub(crate) struct Surroundings<'a> {
     /// The picture without bodies.
     pub(crate) ground: &'a [u8],
     pub(crate) view: View,
+    /// Width of edges (pixels), at least [`SHARP`].
+    pub(crate) soft: f32,
     /// Bodies that are drawn over it.
     pub(crate) above: &'a [(Appearance, Pose)],
     /// Bodies that are drawn under it.
@@ -59,7 +66,7 @@ impl Surroundings<'_> {
 
     /// All pixels within `reach` (u) of a place that no other body hides, and the share of pixels hidden.
     fn samples(&self, centre: Vec2, reach: f32, stride: usize) -> Vec<Sample> {
-        let soft = SHARP / self.view.scale;
+        let soft = self.soft / self.view.scale;
         let mut samples = Vec::new();
         for (x, y) in self.view.pixels_within(self.picture.size(), centre, reach, stride) {
             let point = self.view.point(x, y);
@@ -90,27 +97,36 @@ impl Surroundings<'_> {
         let pixel = 1.0 / self.view.scale;
         let samples = self.samples(start.position, body.reach() + (blur + 1.0) * pixel, 1);
         let mut fit = Fit { pose: start, ..Fit::default() };
-        let mut soft = blur.max(SHARP);
+        let mut soft = blur.max(self.soft);
         let mut steps = 0;
         loop {
             let step = self.step(body, &samples, &mut fit, soft * pixel);
             steps += 1;
-            let small = step / pixel < if soft > SHARP { 0.25 } else { CONVERGED };
-            if (small || steps % 4 == 0) && soft <= SHARP {
-                break;
-            }
-            if small || steps % 4 == 0 {
-                soft = (0.4 * soft).max(SHARP);
+            let last = soft <= self.soft;
+            let small = step / pixel < if last { CONVERGED } else { 0.25 };
+            if small || steps == MOST_STEPS {
+                if last {
+                    break;
+                }
+                soft = (0.4 * soft).max(self.soft);
+                steps = 0;
             }
         }
         self.judge(body, &samples, &mut fit);
         fit
     }
 
+    /// Share of a body in a pose that no other body hides.
+    pub(crate) fn visible(&self, body: &Appearance, pose: &Pose) -> f32 {
+        let mut fit = Fit { pose: *pose, ..Fit::default() };
+        self.judge(body, &self.samples(pose.position, body.reach(), 1), &mut fit);
+        fit.visible
+    }
+
     /// Root mean square difference of colour over all that is near a body in a pose: what tells forms and
     /// sizes apart.
     pub(crate) fn mismatch(&self, body: &Appearance, pose: &Pose, centre: Vec2) -> f32 {
-        let soft = SHARP / self.view.scale;
+        let soft = self.soft / self.view.scale;
         let mut sum = 0.0;
         let mut count = 0.0_f32;
         for sample in self.samples(centre, 3.2, 2) {
@@ -192,22 +208,26 @@ impl Surroundings<'_> {
 
     /// Measures to what extent the pose explains the picture.
     fn judge(&self, body: &Appearance, samples: &[Sample], fit: &mut Fit) {
-        let soft = SHARP / self.view.scale;
+        let soft = self.soft / self.view.scale;
         let rotation = Vec2::from_angle(-fit.pose.angle);
         let mut sum = 0.0;
+        let mut around = 0.0;
         let mut count = 0.0;
         for sample in samples {
             let local = rotation.rotate(sample.point - fit.pose.position);
+            let off = square(sample.seen, body.over(sample.under, local, soft)).min(OUTLIER * OUTLIER);
             if body.cover(local, soft) > 0.5 {
-                let off = square(sample.seen, body.over(sample.under, local, soft));
-                sum += off.min(OUTLIER * OUTLIER);
+                sum += off;
                 count += 1.0;
+            } else {
+                around += off;
             }
         }
         let area = self.view.scale * self.view.scale * body.radius * body.radius;
         let whole = area * if body.form == Form::Disc { core::f32::consts::PI } else { 4.0 };
         fit.visible = (count / whole).min(1.0);
         fit.difference = if count > 0.0 { (sum / count).sqrt() } else { OUTLIER };
+        fit.unexplained = if count > 0.0 { ((sum + around) / count).sqrt() } else { OUTLIER };
     }
 }
 

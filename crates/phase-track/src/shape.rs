@@ -26,6 +26,8 @@ pub struct Pose {
 pub(crate) struct Look {
     /// Width of a dark outline inside the body's edge (u); 0 without.
     pub(crate) outline: f32,
+    /// Width of a dark outline outside of it (u); 0 without.
+    pub(crate) margin: f32,
     /// Whether agents have eyes.
     pub(crate) eyes: bool,
 }
@@ -45,7 +47,7 @@ pub(crate) struct Appearance {
 impl Appearance {
     /// Greatest distance of the outline from the origin (u).
     pub(crate) fn reach(&self) -> f32 {
-        self.radius * if self.form == Form::Trapezoid { 1.81 } else { 1.0 }
+        self.radius * if self.form == Form::Trapezoid { 1.81 } else { 1.0 } + 2.0 * self.look.margin
     }
 
     /// Distance from the outline (u), negative inside, of a point in the body's frame.
@@ -67,15 +69,16 @@ impl Appearance {
 
     /// The colour at a point in the body's frame over what lies under it.
     pub(crate) fn over(&self, under: Rgb, point: Vec2, soft: f32) -> Rgb {
-        let depth = self.depth(point);
+        let depth = self.depth(point) - self.look.margin;
+        let outline = self.look.outline + self.look.margin;
         let share = |distance: f32| (0.5 - distance / soft).clamp(0.0, 1.0);
         // Eyes stand out a little.
         if depth > 0.5 * soft + if self.look.eyes { 0.1 * self.radius } else { 0.0 } {
             return under;
         }
         let mut inside = self.colour;
-        if self.look.outline > 0.0 {
-            inside = mix(OUTLINE, inside, share(depth + self.look.outline));
+        if outline > 0.0 {
+            inside = mix(OUTLINE, inside, share(depth + outline));
         }
         let mut colour = mix(under, inside, share(depth));
         if self.look.eyes && self.form == Form::Trapezoid {

@@ -23,6 +23,8 @@ struct Video {
     noise: f32,
     /// Rows of black above and below.
     bars: usize,
+    /// Distance of the axes around the arena (u); none at 0.
+    axes: f32,
     layout: (u8, usize),
 }
 
@@ -34,6 +36,7 @@ const PUBLISHED: Video = Video {
     frame_rate: 20.0,
     noise: 0.0,
     bars: 0,
+    axes: 0.0,
     layout: (20, 1),
 };
 
@@ -81,6 +84,12 @@ impl Video {
         landmark.map_or([255.0; 3], |landmark| LANDMARKS[landmark])
     }
 
+    /// Axes, as plotting programs draw them, are lines a pixel wide.
+    fn is_axis(&self, point: Vec2) -> bool {
+        let off = (point - arena::CENTRE).abs().max_element() - 10.0 - self.axes;
+        self.axes > 0.0 && off.abs() * self.scale < 0.5
+    }
+
     fn draw(&self, poses: &[Pose; 4], frame: usize) -> Vec<u8> {
         let mut bytes = Vec::new();
         let walls = self.layout().walls();
@@ -94,7 +103,9 @@ impl Video {
                         (x as f32 + dx - self.corner.0) / self.scale,
                         (y as f32 + dy - self.corner.1) / self.scale,
                     );
-                    let colour = Self::colour(&walls, Vec2::new(6.0 + px, 22.0 - py), poses);
+                    let point = Vec2::new(6.0 + px, 22.0 - py);
+                    let colour =
+                        if self.is_axis(point) { [0.0; 3] } else { Self::colour(&walls, point, poses) };
                     sum = [0, 1, 2].map(|k| sum[k] + 0.25 * colour[k]);
                 }
                 let is_bar = y < self.bars || y >= self.height - self.bars;
@@ -167,6 +178,7 @@ fn small_noisy_letter_boxed_and_slow_videos_are_read_too() {
         Video { noise: 25.0, ..PUBLISHED },
         Video { height: 600, corner: (120.0, 100.0), bars: 50, ..PUBLISHED },
         Video { frame_rate: 10.0, ..PUBLISHED },
+        Video { axes: 1.0, scale: 18.0, ..PUBLISHED },
         Video { layout: (7, 2), ..PUBLISHED },
     ];
     for video in damaged {
@@ -191,6 +203,16 @@ fn rows_are_told_from_motion() {
             pose(13.0 + (2.3 * t).sin(), 6.0, 0.0),
         ]
     };
+    let at = |seconds: f32| rows((4.0 * seconds + 1e-3) as usize);
+    let held = Video { frame_rate: 15.0, ..PUBLISHED }.track(1.5, at).expect("a track");
+    assert_eq!(held.meaning(), FrameMeaning::Held);
+    let (event, _) = held.event(held.meaning(), None).expect("an event");
+    // A single frame shows the last row, after a leap.
+    for (t, row) in event.rows().iter().enumerate().take(6) {
+        for (found, truth) in row.iter().zip(rows(t)) {
+            assert!(found.position.distance(truth.position) < 0.05, "row {t}: {found:?}, {truth:?}");
+        }
+    }
     let between = |seconds: f32| {
         let steps = 4.0 * seconds;
         let (a, b) = (rows(steps as usize), rows(steps as usize + 1));
@@ -199,6 +221,14 @@ fn rows_are_told_from_motion() {
             angle: a[k].angle + (b[k].angle - a[k].angle) * steps.fract(),
         })
     };
+    // 12.5 frames a second show few of the rows themselves.
+    let slow = Video { frame_rate: 12.5, ..PUBLISHED }.track(1.2, between).expect("a track");
+    let (event, _) = slow.event(FrameMeaning::Rows, None).expect("an event");
+    for (t, row) in event.rows().iter().enumerate() {
+        for (found, truth) in row.iter().zip(rows(t)) {
+            assert!(found.position.distance(truth.position) < 0.1, "row {t}: {found:?}, {truth:?}");
+        }
+    }
     let track = PUBLISHED.track(2.0, between).expect("a track");
     assert_eq!(track.meaning(), FrameMeaning::Rows);
     let (event, tracking) = track.event(track.meaning(), None).expect("an event");

@@ -406,7 +406,7 @@ def track(source, *, frame_rate=20, id="video"):
         source: the path of a video (.mp4, .gif, others through the program ffmpeg), of a folder of PNG pictures, or of a table with
             columns ``time`` (s), ``body``, ``x``, ``y`` and perhaps ``angle`` (.csv, .jsonl); or the frames of a video, (frames, height,
             width, 3), ``uint8``.
-        frame_rate: frames a second, 8 to 240, of an array or of a folder of pictures; files of other kinds know theirs.
+        frame_rate: frames a second, 4 to 240, of an array or of a folder of pictures; files of other kinds know theirs.
         id: the name of the event, for an array.
 
     Returns:
@@ -415,8 +415,8 @@ def track(source, *, frame_rate=20, id="video"):
     Raises:
         PhaseError: naming the file and what the pictures lack (docs/how-to/track.md).
     """
-    if not (isinstance(frame_rate, numbers.Real) and 8 <= frame_rate <= 240):
-        raise PhaseError(f"frame_rate must be 8 to 240, not {frame_rate!r}")
+    if not (isinstance(frame_rate, numbers.Real) and 4 <= frame_rate <= 240):
+        raise PhaseError(f"frame_rate must be 4 to 240, not {frame_rate!r}")
     if isinstance(source, (str, os.PathLike)):
         return ObservedEvent.of_native(_native.Observed.track(path_of(source), float(frame_rate)))
     frames = np.asarray(source)

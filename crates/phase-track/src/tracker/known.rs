@@ -6,7 +6,7 @@ use crate::{
     arena::Stage,
     detect::{self, Found},
     fit::{Fit, SHARP, Surroundings},
-    picture::{Picture, distance},
+    picture::{Picture, Rgb, distance},
     shape::{Appearance, Form, Pose},
 };
 use core::f32::consts::TAU;
@@ -18,6 +18,16 @@ const LONGEST_HIDDEN: f64 = 3.0;
 const POOR: f32 = 38.0;
 /// Share of a body that must be in sight for its pose to be measured.
 const LEAST_VISIBLE: f32 = 0.15;
+/// Share of a hidden body that may be in sight in the pose in which it is thought to be.
+const MOST_OPEN: f32 = 0.4;
+/// Turn from frame to frame (rad) after which other directions are tried.
+const SUDDEN_TURN: f32 = 0.35;
+/// Turn away from the prediction (rad) after which a fit goes on.
+const FAR_TURN: f32 = 0.15;
+/// Frames after which they are tried in any case.
+const CHECK_EVERY: usize = 10;
+/// Share of what is unexplained that another pose must go below to be taken instead.
+const BETTER: f32 = 0.95;
 
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Followed {
@@ -38,11 +48,14 @@ pub(super) struct Followed {
 pub(super) struct Known {
     pub(super) stage: Stage,
     pub(super) size: (usize, usize),
+    /// Width of edges (pixels).
+    soft: f32,
     ground: Vec<u8>,
     /// Pixels of the ground that no picture has shown yet.
     guessed: Vec<bool>,
     guesses: usize,
     pub(super) followed: Vec<Followed>,
+    followed_frames: usize,
 }
 
 impl Known {
@@ -65,7 +78,7 @@ impl Known {
                 }
             }
         }
-        let found = detect::bodies(picture, &stage, &ground)?;
+        let (soft, found) = detect::bodies(picture, &stage, &ground)?;
         let followed = found.iter().map(|&Found { body, size, fit }| Followed {
             body,
             size,
@@ -77,9 +90,11 @@ impl Known {
         });
         let mut known = Self {
             size: (width, height),
+            soft,
             guessed: vec![true; width * height],
             guesses: width * height,
             followed: followed.collect(),
+            followed_frames: 0,
             ground,
             stage,
         };
@@ -99,6 +114,7 @@ impl Known {
     }
 
     pub(super) fn follow(&mut self, picture: &Picture<'_>, before: f64, now: f64) -> Result<(), TrackError> {
+        self.followed_frames += 1;
         self.fit_all(picture, before, now)?;
         if self.guesses > 0 {
             self.learn_ground(picture);
@@ -125,6 +141,7 @@ impl Known {
                 picture,
                 ground: &self.ground,
                 view: self.stage.view,
+                soft: self.soft,
                 above: &above,
                 below: &below,
                 others: &[],
@@ -140,6 +157,12 @@ impl Known {
             let mut fit = surroundings.fit(&it.body, predicted, blur);
             // Edges of small or compressed bodies never fit well.
             let usual = it.usual.min(POOR);
+            // A long way is not gone in one search.
+            if fit.pose.position.distance(predicted.position) > 0.25 * it.body.radius
+                || libm::remainderf(fit.pose.angle - predicted.angle, TAU).abs() > FAR_TURN
+            {
+                fit = surroundings.fit(&it.body, fit.pose, 2.0 * SHARP);
+            }
             let is_poor = |fit: &Fit| fit.difference > usual + 12.0 || fit.visible < 2.0 * LEAST_VISIBLE;
             if is_poor(&fit) && interval != 0.0 {
                 for start in self.elsewhere(&surroundings, &it, predicted) {
@@ -149,6 +172,12 @@ impl Known {
                     }
                 }
             }
+            for start in self.other_directions(&it, &fit, predicted) {
+                let other = surroundings.fit(&it.body, start, 2.0 * SHARP);
+                if other.visible > 0.9 * fit.visible && other.unexplained < BETTER * fit.unexplained {
+                    fit = other;
+                }
+            }
             if fit.visible < LEAST_VISIBLE || fit.difference > (1.2 * POOR).max(usual + 14.0) {
                 let hidden = now - it.seen;
                 if hidden > LONGEST_HIDDEN {
@@ -156,6 +185,7 @@ impl Known {
                     let colour = format!("#{red:02x}{green:02x}{blue:02x}");
                     return Err(TrackError::Lost { colour, start: it.seen, seconds: hidden });
                 }
+                let predicted = hiding_place(&surroundings, &it.body, predicted);
                 let error = 0.1 + it.velocity.length() * hidden.abs() as f32;
                 fit = Fit { pose: predicted, deviation: [error, error, error / it.body.radius], ..fit };
                 self.followed[k].fit = fit;
@@ -174,6 +204,25 @@ impl Known {
             followed.fit = fit;
         }
         Ok(())
+    }
+
+    /// Poses from which to look for an agent that may have been taken for one that faces elsewhere: after a
+    /// sudden turn, and now and then.
+    fn other_directions(&self, it: &Followed, fit: &Fit, predicted: Pose) -> Vec<Pose> {
+        if it.body.form == Form::Disc {
+            return Vec::new();
+        }
+        let mut starts = Vec::new();
+        let turned = libm::remainderf(fit.pose.angle - it.fit.pose.angle, TAU);
+        if turned.abs() > SUDDEN_TURN {
+            starts.push(Pose { angle: it.fit.pose.angle, ..predicted });
+        }
+        if self.followed_frames.is_multiple_of(CHECK_EVERY) || turned.abs() > SUDDEN_TURN {
+            starts.extend(
+                [1, 2, 3].map(|k| Pose { angle: fit.pose.angle + 0.25 * TAU * k as f32, ..fit.pose }),
+            );
+        }
+        starts
     }
 
     /// Poses from which to look for a body that is not where it was expected: where its colour is.
@@ -237,4 +286,20 @@ impl Known {
             }
         }
     }
+}
+
+/// The pose nearest to a prediction in which other bodies hide the body; the prediction if there is none.
+fn hiding_place(surroundings: &Surroundings<'_>, body: &Appearance, predicted: Pose) -> Pose {
+    let others: Vec<(Appearance, Pose)> =
+        surroundings.above.iter().chain(surroundings.below).copied().collect();
+    let colours: Vec<Rgb> = others.iter().map(|(other, _)| other.colour).collect();
+    let surroundings = Surroundings { others: &colours, ..*surroundings };
+    let between = |(_, other): &(Appearance, Pose)| {
+        let towards = other.position;
+        (0..=8)
+            .map(move |k| Pose { position: predicted.position.lerp(towards, 0.125 * k as f32), ..predicted })
+    };
+    let hidden = others.iter().flat_map(between).filter(|pose| surroundings.visible(body, pose) < MOST_OPEN);
+    let off = |pose: &Pose| pose.position.distance(predicted.position);
+    hidden.min_by(|a, b| off(a).total_cmp(&off(b))).unwrap_or(predicted)
 }

@@ -44,6 +44,8 @@ pub struct TrackedBody {
 
 /// Frames in which the arena may be absent before the video is refused: a title, or a fade.
 const LONGEST_LEAD: usize = 300;
+/// Frames in which bodies are not looked for after many in which they could not be told apart.
+const MOST_SKIPPED: usize = 10;
 /// Most that is kept of them (bytes).
 const MOST_WAITING: usize = 1 << 26;
 /// Greatest length of a video (s).
@@ -58,6 +60,8 @@ pub struct Tracker {
     /// The frames since then in which the bodies could not be told apart yet, with their times. They are
     /// followed backwards once the bodies are known.
     waiting: Vec<(f64, Vec<u8>)>,
+    /// The frame in which they are looked for next.
+    next_attempt: usize,
     known: Option<Known>,
     /// Why the frames so far were not understood.
     refusal: Option<TrackError>,
@@ -81,6 +85,7 @@ impl Tracker {
             frames: 0,
             first_seconds: None,
             waiting: Vec::new(),
+            next_attempt: 0,
             known: None,
             refusal: None,
             moments: Vec::new(),
@@ -109,7 +114,12 @@ impl Tracker {
         self.last_seconds = seconds;
         let Some(known) = &mut self.known else {
             let now = self.first_seconds.map_or(0.0, |first| seconds - first);
-            match Known::begin(picture, frame, now) {
+            // Looking for bodies takes as long as following them through many frames.
+            let begun = match &self.refusal {
+                Some(error) if frame < self.next_attempt => Err(error.clone()),
+                _ => Known::begin(picture, frame, now),
+            };
+            match begun {
                 Ok(known) => {
                     let first = *self.first_seconds.get_or_insert(seconds);
                     self.moments.push(known.moment(seconds - first));
@@ -136,6 +146,9 @@ impl Tracker {
                         let kept = self.waiting.len() * picture.bytes().len() < MOST_WAITING;
                         let bytes = if kept { picture.bytes().to_vec() } else { Vec::new() };
                         self.waiting.push((seconds, bytes));
+                        if frame >= self.next_attempt {
+                            self.next_attempt = frame + 1 + (self.waiting.len() / 4).min(MOST_SKIPPED);
+                        }
                     }
                     self.refusal = Some(error);
                 }
@@ -156,7 +169,7 @@ impl Tracker {
     /// The motion seen.
     ///
     /// # Errors
-    /// [`TrackError`] if no frame was understood, the times of frames are uneven, there are fewer than 8 or
+    /// [`TrackError`] if no frame was understood, the times of frames are uneven, there are fewer than 4 or
     /// more than 240 frames a second, or they last less than 0.25 s.
     pub fn finish(self) -> Result<Track, TrackError> {
         let seconds = self.last_seconds - self.first_seconds.unwrap_or(self.last_seconds);
@@ -172,7 +185,7 @@ impl Tracker {
             return Err(TrackError::Uneven { least, greatest });
         }
         let frame_rate = (self.moments.len() - 1) as f64 / seconds;
-        if !(7.9..=240.5).contains(&frame_rate) {
+        if !(3.95..=240.5).contains(&frame_rate) {
             return Err(TrackError::Rate(frame_rate));
         }
         let body = |followed: &Followed| TrackedBody {
