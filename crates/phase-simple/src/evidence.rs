@@ -98,12 +98,57 @@ impl ActionLikelihoods {
     }
 }
 
+/// The closeness of a look at an intent: at one of so many of the decisions that are looked at, a power of
+/// two up to [`Stride::COARSEST`]. A smaller stride looks at more decisions, those of a larger one among
+/// them.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) struct Stride(usize);
+
+impl Stride {
+    /// Every decision.
+    pub(crate) const EVERY: Self = Self(1);
+    /// The largest stride, 24 steps at the default interval: four times the time after which decisions tell
+    /// something new (docs/explanation/simple.md).
+    const COARSEST: usize = 8;
+    /// The first decision at the largest stride: from there on each is the middle of those it stands for.
+    const FIRST: usize = Self::COARSEST / 2;
+
+    /// The largest stride at which at least two of so many decisions are looked at, the fewest that show how
+    /// much decisions differ.
+    pub(crate) fn coarsest(decisions: usize) -> Self {
+        let mut stride = Self(Self::COARSEST);
+        while let Some(closer) = stride.closer().filter(|_| stride.of(decisions).nth(1).is_none()) {
+            stride = closer;
+        }
+        stride
+    }
+
+    /// The next smaller stride, if there is one.
+    pub(crate) fn closer(self) -> Option<Self> {
+        (self.0 > 1).then_some(Self(self.0 / 2))
+    }
+
+    /// Those of so many decisions that are looked at.
+    fn of(self, decisions: usize) -> impl Iterator<Item = usize> {
+        (Self::FIRST % self.0..decisions).step_by(self.0)
+    }
+
+    /// The decision of these that stands for a decision: the nearest, and of two the earlier.
+    fn nearest(self, decision: usize, decisions: usize) -> Option<usize> {
+        let since = (decision + Self::COARSEST - Self::FIRST) % self.0;
+        let before = decision.checked_sub(since);
+        let after = Some(decision + self.0 - since).filter(|after| *after < decisions);
+        if 2 * since <= self.0 { before.or(after) } else { after.or(before) }
+    }
+}
+
 /// The evidence on one intent of one agent: the chance of each of its choices that is looked at.
 #[derive(Debug)]
 pub struct IntentEvidence {
     agent: AgentId,
     run: SimulationRun,
-    chances: Vec<Chance>,
+    /// By decision.
+    chances: Vec<Option<Chance>>,
 }
 
 impl IntentEvidence {
@@ -136,12 +181,28 @@ impl IntentEvidence {
         likelihoods: &ActionLikelihoods,
         budget: &mut Budget,
     ) -> Result<bool, PomcpError> {
-        for (decision, of_step) in likelihoods.of_decisions.iter().enumerate().skip(self.chances.len()) {
+        self.follow_at(Stride::EVERY, prepared, likelihoods, budget)
+    }
+
+    /// As [`follow`](Self::follow), at fewer of the decisions.
+    pub(crate) fn follow_at(
+        &mut self,
+        stride: Stride,
+        prepared: &PreparedEvent,
+        likelihoods: &ActionLikelihoods,
+        budget: &mut Budget,
+    ) -> Result<bool, PomcpError> {
+        self.chances.resize(likelihoods.decisions(), None);
+        for decision in stride.of(likelihoods.decisions()) {
+            if self.chances[decision].is_some() {
+                continue;
+            }
             if !budget.take() {
                 return Ok(false);
             }
             let (action, thought) = prepared.decide(&mut self.run, self.agent, likelihoods.step(decision))?;
-            self.chances.push(Chance::of(&choice::policy_of(action, &thought), &of_step[self.agent]));
+            let of_step = &likelihoods.of_decisions[decision][self.agent];
+            self.chances[decision] = Some(Chance::of(&choice::policy_of(action, &thought), of_step));
         }
         Ok(true)
     }
@@ -152,22 +213,57 @@ impl IntentEvidence {
     }
 
     /// The chance of the agent's action at each decision that was looked at.
-    #[must_use]
-    pub fn chances(&self) -> &[Chance] {
-        &self.chances
+    pub fn chances(&self) -> impl Iterator<Item = Chance> {
+        self.chances.iter().flatten().copied()
     }
 
-    /// ln P(motion | intent) of the agent's part of the motion, but for a constant: relative to the best
-    /// choices, which are the same under every intent.
-    #[must_use]
-    pub fn log_likelihood(&self, settings: &InversePlanningSettings) -> f64 {
-        self.log_likelihood_of(self.chances.len(), settings)
+    /// ln P(motion | intent) of the first so many decisions of the agent's part of the motion, but for a
+    /// constant: relative to the best choices, which are the same under every intent. Each decision counts as
+    /// the nearest one that a stride looks at.
+    pub(crate) fn log_likelihood(
+        &self,
+        decisions: usize,
+        stride: Stride,
+        settings: &InversePlanningSettings,
+    ) -> f64 {
+        let all = self.chances.len();
+        let log = |decision| {
+            let chance = stride.nearest(decision, all).and_then(|nearest| self.chances[nearest]);
+            chance.map_or(0.0, |chance| chance.log(settings.lapse_rate))
+        };
+        settings.weight_of_decision() * (0..decisions.min(all)).map(log).sum::<f64>()
     }
 
-    /// ln P(motion | intent) of the first so many decisions.
-    pub(crate) fn log_likelihood_of(&self, decisions: usize, settings: &InversePlanningSettings) -> f64 {
-        let first = self.chances.iter().take(decisions);
-        let log: f64 = first.map(|chance| chance.log(settings.lapse_rate)).sum();
-        settings.weight_of_decision() * log
+    /// The logarithms of the chances that a stride looks at (nat).
+    pub(crate) fn logs(&self, stride: Stride, lapse_rate: f64) -> impl Iterator<Item = f64> {
+        let looked_at = stride.of(self.chances.len()).filter_map(|decision| self.chances[decision]);
+        looked_at.map(move |chance| chance.log(lapse_rate))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Stride;
+
+    /// A closer look adds decisions, until all are looked at; each stands for itself and those nearest to it.
+    #[test]
+    fn strides_are_nested_and_evenly_spread() {
+        for decisions in 1..60 {
+            let mut stride = Stride::coarsest(decisions);
+            let mut seen: Vec<usize> = stride.of(decisions).collect();
+            assert!(seen.len() >= 2.min(decisions) && seen.len() <= decisions.div_ceil(8).max(3), "{seen:?}");
+            loop {
+                for decision in 0..decisions {
+                    let near = stride.nearest(decision, decisions).expect("there is one");
+                    let least = seen.iter().map(|it| it.abs_diff(decision)).min();
+                    assert!(seen.contains(&near) && Some(near.abs_diff(decision)) == least, "{stride:?}");
+                }
+                let Some(closer) = stride.closer() else { break };
+                let more: Vec<usize> = closer.of(decisions).collect();
+                assert!(seen.iter().all(|decision| more.contains(decision)));
+                (stride, seen) = (closer, more);
+            }
+            assert_eq!(seen, (0..decisions).collect::<Vec<_>>());
+        }
     }
 }

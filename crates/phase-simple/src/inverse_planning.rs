@@ -10,7 +10,7 @@
 
 use crate::{
     Hypothesis, Intent, IntentEvidence, InversePlanningSettings, Posterior,
-    evidence::{ActionLikelihoods, Budget},
+    evidence::{ActionLikelihoods, Budget, Stride},
     generative::PreparedEvent,
     guide::Guess,
     intent::{WeightedIntents, joint_logs},
@@ -19,10 +19,7 @@ use crate::{
 use core::ops::ControlFlow;
 use phase_model::{AGENT_COUNT, AgentId, Attitude, Goal, Strength};
 use phase_pomcp::PomcpError;
-use std::collections::BTreeMap;
-
-/// Refinement passes: how often the intents are re-evaluated with an updated goal of the other agent.
-const REFINEMENT_PASSES: usize = 2;
+use std::collections::{BTreeMap, btree_map::Entry};
 
 /// Whose intent it is, and the other's goal if the intent does not say.
 type Key = (AgentId, Intent, Option<Goal>);
@@ -36,7 +33,26 @@ pub(crate) struct InversePlanner {
     likelihoods: ActionLikelihoods,
     evidence: BTreeMap<Key, IntentEvidence>,
     /// The evidence that the last answer used.
-    asked: [Vec<Key>; AGENT_COUNT],
+    asked: [Vec<Asked>; AGENT_COUNT],
+    /// The goals that agents who are not social attribute to each other in it.
+    assumed: Option<[Goal; AGENT_COUNT]>,
+}
+
+/// Evidence that an answer uses.
+#[derive(Clone, Copy, Debug)]
+struct Asked {
+    key: Key,
+    stride: Stride,
+}
+
+/// The evidence on an intent that an answer uses.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub(crate) struct IntentLog {
+    intent: Intent,
+    /// ln P(motion | intent) (nat).
+    pub(crate) log: f64,
+    /// Its standard error (nat), from what the decisions that were not looked at may add; 0 if all were.
+    pub(crate) error: f64,
 }
 
 impl InversePlanner {
@@ -48,7 +64,18 @@ impl InversePlanner {
             likelihoods: ActionLikelihoods::new(settings),
             evidence: BTreeMap::new(),
             asked: [Vec::new(), Vec::new()],
+            assumed: None,
         }
+    }
+
+    /// ε of its minds.
+    pub(crate) const fn lapse_rate(&self) -> f64 {
+        self.settings.lapse_rate
+    }
+
+    /// The change of the posterior that may be left unmade.
+    pub(crate) const fn tolerated_change(&self) -> f64 {
+        self.settings.tolerated_change
     }
 
     /// Drops the evidence on all but some first rows of an event that was followed, which are explained as
@@ -68,6 +95,22 @@ impl InversePlanner {
         self.likelihoods.follow(&self.prepared);
     }
 
+    /// Asks for some intents anew, each looked at as little as may be. `assumed` are the goals that agents
+    /// who are not social attribute to each other.
+    pub(crate) fn ask(&mut self, intents: &[(AgentId, Intent)], assumed: [Goal; AGENT_COUNT]) {
+        let stride = self.first_stride();
+        self.asked = [Vec::new(), Vec::new()];
+        for &(agent, intent) in intents {
+            self.asked[agent].push(Asked { key: key(agent, intent, assumed[agent.other()]), stride });
+        }
+        self.assumed = Some(assumed);
+    }
+
+    /// The closeness of the first look at an intent.
+    fn first_stride(&self) -> Stride {
+        if self.settings.tolerated_change > 0.0 { Stride::coarsest(self.decisions()) } else { Stride::EVERY }
+    }
+
     /// Catches up with an intent of an agent, the other pursuing `others`. Whether it could, within the
     /// budget.
     ///
@@ -80,70 +123,87 @@ impl InversePlanner {
         others: Goal,
         budget: &mut Budget,
     ) -> Result<bool, PomcpError> {
-        Ok(self.log_likelihood(agent, intent, others, budget)?.is_some())
+        self.follow_intent(Asked { key: key(agent, intent, others), stride: self.first_stride() }, budget)
     }
 
-    /// Simulates these intents, as far as the budget suffices, with the strengths inferred from the physics;
-    /// whether `tick`, which is called about once per intent, let it. `assumed` are the goals that neutral
-    /// agents first attribute to each other; the likeliest ones, given what a guide guesses, take their
-    /// place. [`InversePlanner::weighted_after`] has the result.
+    /// Looks at all that was asked for, as far as the budget suffices; the rest is no longer asked for.
+    /// Whether `tick`, which is called about once per intent, let it.
     ///
     /// # Errors
     /// Invalid parameters of the agents' search.
-    pub(crate) fn simulate(
+    pub(crate) fn look(
         &mut self,
-        intents: &[(AgentId, Intent)],
-        assumed: [Goal; AGENT_COUNT],
-        guess: Option<&Guess>,
         budget: &mut Budget,
         tick: &mut dyn FnMut() -> ControlFlow<()>,
     ) -> Result<bool, PomcpError> {
-        let log_guess = |agent, intent| guess.map_or(0.0, |guess| guess.log(agent, intent));
-        let mut weighted_intents: [WeightedIntents; AGENT_COUNT] = [Vec::new(), Vec::new()];
-        self.asked = [Vec::new(), Vec::new()];
-        for &(agent, intent) in intents {
-            if tick().is_break() {
-                return Ok(false);
-            }
-            let others = assumed[agent.other()];
-            let Some(log) = self.log_likelihood(agent, intent, others, budget)? else { continue };
-            weighted_intents[agent].push((intent, log + log_guess(agent, intent)));
-            self.asked[agent].push(key(agent, intent, others));
-        }
-        let mut assumed_goals = assumed;
-        let goals = physical_goals(AgentId::ZERO, self.prepared.observed().object_sizes().len()).len();
-        let mut joint = joint_logs(&weighted_intents, self.strengths, goals);
-        for _ in 0..REFINEMENT_PASSES {
-            let likeliest = Posterior::new(joint.iter().copied())
-                .hypotheses
-                .first()
-                .map_or(assumed_goals, |(best, _)| best.goals);
-            for (agent, weighted_intents) in AgentId::ALL.into_iter().zip(&mut weighted_intents) {
-                let others = likeliest[agent.other()];
-                if others == assumed_goals[agent.other()] {
-                    continue;
+        for agent in AgentId::ALL {
+            for asked in core::mem::take(&mut self.asked[agent]) {
+                if tick().is_break() {
+                    return Ok(false);
                 }
-                for (place, (intent, log)) in weighted_intents.iter_mut().enumerate() {
-                    if intent.attitude != Attitude::Neutral {
-                        continue;
-                    }
-                    if tick().is_break() {
-                        return Ok(false);
-                    }
-                    let refined = self.log_likelihood(agent, *intent, others, budget)?;
-                    if let Some(refined) = refined {
-                        *log = refined + log_guess(agent, *intent);
-                        self.asked[agent][place] = key(agent, *intent, others);
-                    }
+                if self.follow_intent(asked, budget)? {
+                    self.asked[agent].push(asked);
                 }
             }
-            if likeliest == assumed_goals {
-                break;
-            }
-            assumed_goals = likeliest;
-            joint = joint_logs(&weighted_intents, self.strengths, goals);
         }
         Ok(true)
+    }
+
+    /// Looks at an intent that was asked for more closely, if that is possible within the budget.
+    ///
+    /// # Errors
+    /// Invalid parameters of the agents' search.
+    pub(crate) fn look_closer(
+        &mut self,
+        agent: AgentId,
+        place: usize,
+        budget: &mut Budget,
+    ) -> Result<bool, PomcpError> {
+        let asked = self.asked[agent][place];
+        let Some(stride) = asked.stride.closer() else { return Ok(false) };
+        let closer = Asked { stride, ..asked };
+        let could = self.follow_intent(closer, budget)?;
+        if could {
+            self.asked[agent][place] = closer;
+        }
+        Ok(could)
+    }
+
+    /// Lets agents who are not social attribute to each other the goals that are likeliest, given what a
+    /// guide guesses, and looks at their intents again as far as the budget suffices. Whether those are
+    /// others than before; `None` if `tick` did not let it.
+    ///
+    /// # Errors
+    /// Invalid parameters of the agents' search.
+    pub(crate) fn reconsider(
+        &mut self,
+        guess: Option<&Guess>,
+        budget: &mut Budget,
+        tick: &mut dyn FnMut() -> ControlFlow<()>,
+    ) -> Result<Option<bool>, PomcpError> {
+        let logs = self.logs(self.decisions(), self.settings.lapse_rate);
+        let posterior = Posterior::new(self.joint(&logs, guess));
+        let likeliest = posterior.hypotheses.first().map(|(best, _)| best.goals);
+        let (Some(before), Some(likeliest)) = (self.assumed, likeliest) else { return Ok(Some(false)) };
+        for agent in
+            AgentId::ALL.into_iter().filter(|agent| likeliest[agent.other()] != before[agent.other()])
+        {
+            for place in 0..self.asked[agent].len() {
+                let Asked { key: (_, intent, _), stride } = self.asked[agent][place];
+                if intent.attitude != Attitude::Neutral {
+                    continue;
+                }
+                if tick().is_break() {
+                    return Ok(None);
+                }
+                let asked = Asked { key: key(agent, intent, likeliest[agent.other()]), stride };
+                if self.follow_intent(asked, budget)? {
+                    self.asked[agent][place] = asked;
+                }
+            }
+        }
+        self.assumed = Some(likeliest);
+        Ok(Some(likeliest != before))
     }
 
     /// Number of decisions that were looked at.
@@ -156,23 +216,49 @@ impl InversePlanner {
         self.likelihoods.row_after(decisions)
     }
 
-    /// The last answer as it would have been after so many decisions, when the guide said `guess`: ln P(Y)
-    /// P(motion | Y) of every hypothesis, those that were not simulated included, at the planner's own lapse
-    /// rate or another.
-    pub(crate) fn weighted_after(
-        &self,
-        decisions: usize,
-        guess: Option<&Guess>,
-        lapse_rate: Option<f64>,
-    ) -> Vec<(Hypothesis, f64)> {
-        let lapse_rate = lapse_rate.unwrap_or(self.settings.lapse_rate);
+    /// The evidence on all that was asked for, at a lapse rate, in the first so many decisions.
+    pub(crate) fn logs(&self, decisions: usize, lapse_rate: f64) -> [Vec<IntentLog>; AGENT_COUNT] {
         let settings = InversePlanningSettings { lapse_rate, ..self.settings };
-        let weighted_intents: [WeightedIntents; AGENT_COUNT] = AgentId::ALL.map(|agent| {
-            let weigh = |key: &Key| {
-                let log = self.evidence.get(key).map_or(0.0, |it| it.log_likelihood_of(decisions, &settings));
-                (key.1, log + guess.map_or(0.0, |guess| guess.log(agent, key.1)))
+        let deviation = self.deviation(lapse_rate);
+        AgentId::ALL.map(|agent| {
+            let log = |&Asked { key, stride }: &Asked| {
+                let evidence = self.evidence.get(&key);
+                let log = evidence.map_or(0.0, |it| it.log_likelihood(decisions, stride, &settings));
+                let looked_at = evidence.map_or(0, |it| it.logs(stride, lapse_rate).count()).max(1) as f64;
+                let all = self.decisions() as f64;
+                // Of a mean of some of so many decisions.
+                let error = deviation * libm::sqrt((1.0 / looked_at - 1.0 / all).max(0.0));
+                IntentLog { intent: key.1, log, error: settings.weight_of_decision() * all * error }
             };
-            self.asked[agent].iter().map(weigh).collect()
+            self.asked[agent].iter().map(log).collect()
+        })
+    }
+
+    /// The standard deviation of the log likelihoods of single decisions (nat), from the differences of
+    /// successive ones that were looked at, as for a systematic sample, because near decisions are alike;
+    /// pooled over all intents asked for.
+    fn deviation(&self, lapse_rate: f64) -> f64 {
+        let mut squares = 0.0;
+        let mut count = 0;
+        for Asked { key, stride } in self.asked.iter().flatten() {
+            let Some(evidence) = self.evidence.get(key) else { continue };
+            let logs: Vec<f64> = evidence.logs(*stride, lapse_rate).collect();
+            squares += logs.windows(2).map(|pair| (pair[1] - pair[0]) * (pair[1] - pair[0])).sum::<f64>();
+            count += logs.len().saturating_sub(1);
+        }
+        libm::sqrt(squares / (2 * count.max(1)) as f64)
+    }
+
+    /// ln P(Y) P(motion | Y) of every hypothesis from the evidence on intents, those that were not simulated
+    /// included, when the guide said `guess`.
+    pub(crate) fn joint(
+        &self,
+        logs: &[Vec<IntentLog>; AGENT_COUNT],
+        guess: Option<&Guess>,
+    ) -> Vec<(Hypothesis, f64)> {
+        let weighted_intents: [WeightedIntents; AGENT_COUNT] = AgentId::ALL.map(|agent| {
+            let guessed = |intent| guess.map_or(0.0, |guess| guess.log(agent, intent));
+            logs[agent].iter().map(|it| (it.intent, it.log + guessed(it.intent))).collect()
         });
         let goals = physical_goals(AgentId::ZERO, self.prepared.observed().object_sizes().len()).len();
         let joint = joint_logs(&weighted_intents, self.strengths, goals);
@@ -182,23 +268,23 @@ impl InversePlanner {
         }
     }
 
-    /// ln P(motion | intent) of an agent's part of the motion, the other pursuing `others`; `None` if the
-    /// budget does not suffice.
-    fn log_likelihood(
+    /// Catches up with an intent; whether it could within the budget.
+    fn follow_intent(
         &mut self,
-        agent: AgentId,
-        intent: Intent,
-        others: Goal,
+        Asked { key, stride }: Asked,
         budget: &mut Budget,
-    ) -> Result<Option<f64>, PomcpError> {
-        let key = key(agent, intent, others);
-        if !self.evidence.contains_key(&key) {
-            let evidence = IntentEvidence::new(&self.prepared, agent, intent, others, self.strengths)?;
-            self.evidence.insert(key, evidence);
-        }
-        let Some(evidence) = self.evidence.get_mut(&key) else { return Ok(None) };
-        let known = evidence.follow(&self.prepared, &self.likelihoods, budget)?;
-        Ok(known.then(|| evidence.log_likelihood(&self.settings)))
+    ) -> Result<bool, PomcpError> {
+        let (agent, intent, others) = key;
+        let evidence = match self.evidence.entry(key) {
+            Entry::Occupied(known) => known.into_mut(),
+            Entry::Vacant(unknown) => {
+                // A social agent's own intent says what the other pursues.
+                let others = others.unwrap_or(intent.goal);
+                let evidence = IntentEvidence::new(&self.prepared, agent, intent, others, self.strengths)?;
+                unknown.insert(evidence)
+            }
+        };
+        evidence.follow_at(stride, &self.prepared, &self.likelihoods, budget)
     }
 }
 

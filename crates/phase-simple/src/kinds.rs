@@ -9,7 +9,7 @@ use crate::{
     impression::Impression,
     intent::WeightedIntents,
     intent_network::IntentReader,
-    inverse_planning::InversePlanner,
+    inverse_planning::{IntentLog, InversePlanner},
 };
 use core::ops::ControlFlow;
 use phase_event::ObservedEvent;
@@ -48,6 +48,37 @@ impl GuideCourse {
     }
 }
 
+/// Refinement passes: how often the intents are re-evaluated with an updated goal of the other agent.
+const REFINEMENT_PASSES: usize = 2;
+
+/// The findings of a planner about all intents that it was asked for.
+#[derive(Clone, Debug)]
+struct Findings {
+    /// At its own lapse rate.
+    own: [Vec<IntentLog>; AGENT_COUNT],
+    /// At the rate at which kinds are compared, if there are two.
+    compared: Option<[Vec<IntentLog>; AGENT_COUNT]>,
+}
+
+impl Findings {
+    fn evidence(&self, planner: &InversePlanner, guess: Option<&Guess>) -> KindEvidence {
+        let joint = planner.joint(&self.own, guess);
+        let compared = self.compared.as_ref().map(|logs| planner.joint(logs, guess));
+        let log_evidence = log_evidence(compared.as_ref().unwrap_or(&joint));
+        KindEvidence { joint, log_evidence }
+    }
+
+    /// The findings if the log likelihood of an intent were so many standard errors greater.
+    fn moved(&self, agent: AgentId, place: usize, errors: f64) -> Self {
+        let mut moved = self.clone();
+        for logs in core::iter::once(&mut moved.own).chain(&mut moved.compared) {
+            let it = &mut logs[agent][place];
+            it.log += errors * it.error;
+        }
+        moved
+    }
+}
+
 /// One planner for each kind of minds.
 #[derive(Debug)]
 pub(crate) struct Planners {
@@ -75,13 +106,68 @@ impl Planners {
 
     /// The evidence that each kind finds in the first so many decisions, given the guide's guess.
     fn evidence(&self, decisions: usize, guess: Option<&Guess>) -> Vec<KindEvidence> {
-        let one = |planner: &InversePlanner| {
-            let joint = planner.weighted_after(decisions, guess, None);
-            let compared = self.comparison.map(|lapse| planner.weighted_after(decisions, guess, Some(lapse)));
-            let log_evidence = log_evidence(compared.as_ref().unwrap_or(&joint));
-            KindEvidence { joint, log_evidence }
-        };
+        let one = |planner: &InversePlanner| self.findings(planner, decisions).evidence(planner, guess);
         self.planners.iter().map(one).collect()
+    }
+
+    fn findings(&self, planner: &InversePlanner, decisions: usize) -> Findings {
+        Findings {
+            own: planner.logs(decisions, planner.lapse_rate()),
+            compared: self.comparison.map(|lapse| planner.logs(decisions, lapse)),
+        }
+    }
+
+    /// Looks more closely at the intents of which one standard error more or less of ln P(motion | intent)
+    /// would change the posterior by more than is tolerated, until there are none or the budget is spent.
+    fn settle(
+        &mut self,
+        tolerated: f64,
+        guess: Option<&Guess>,
+        budget: &mut Budget,
+        tick: &mut dyn FnMut() -> ControlFlow<()>,
+    ) -> Result<ControlFlow<()>, PomcpError> {
+        loop {
+            let mut closer = false;
+            for (kind, agent, place) in self.unsettled(tolerated, guess) {
+                if tick().is_break() {
+                    return Ok(ControlFlow::Break(()));
+                }
+                closer |= self.planners[kind].look_closer(agent, place, budget)?;
+            }
+            if !closer {
+                return Ok(ControlFlow::Continue(()));
+            }
+        }
+    }
+
+    /// The intents that are worth a closer look: kind, agent and place among those asked for.
+    fn unsettled(&self, tolerated: f64, guess: Option<&Guess>) -> Vec<(usize, AgentId, usize)> {
+        let decisions = self.planners[0].decisions();
+        let findings: Vec<Findings> =
+            self.planners.iter().map(|planner| self.findings(planner, decisions)).collect();
+        let kinds = |findings: &[Findings]| -> Vec<KindEvidence> {
+            let both = self.planners.iter().zip(findings);
+            both.map(|(planner, findings)| findings.evidence(planner, guess)).collect()
+        };
+        let present = kinds(&findings);
+        let posterior = mixture(&present).0;
+        let mut unsettled = Vec::new();
+        for (kind, of_kind) in findings.iter().enumerate() {
+            for agent in AgentId::ALL {
+                for (place, found) in of_kind.own[agent].iter().enumerate() {
+                    let changes = |sign: f64| {
+                        let mut others = present.clone();
+                        others[kind] =
+                            of_kind.moved(agent, place, sign).evidence(&self.planners[kind], guess);
+                        posterior.total_variation(&mixture(&others).0) > tolerated
+                    };
+                    if found.error > 0.0 && (changes(1.0) || changes(-1.0)) {
+                        unsettled.push((kind, agent, place));
+                    }
+                }
+            }
+        }
+        unsettled
     }
 
     /// The answer of all kinds of minds together, and how it came about. Intents that the budget does not
@@ -125,8 +211,23 @@ impl Planners {
             intents = ready;
         }
         for planner in &mut self.planners {
-            if !planner.simulate(&intents, assumed, last.as_ref(), budget, tick)? {
+            planner.ask(&intents, assumed);
+            if !planner.look(budget, tick)? {
                 return Ok(None);
+            }
+        }
+        let tolerated = self.planners[0].tolerated_change();
+        for pass in 0..=REFINEMENT_PASSES {
+            if self.settle(tolerated, last.as_ref(), budget, tick)?.is_break() {
+                return Ok(None);
+            }
+            let mut changed = false;
+            for planner in self.planners.iter_mut().filter(|_| pass < REFINEMENT_PASSES) {
+                let Some(others) = planner.reconsider(last.as_ref(), budget, tick)? else { return Ok(None) };
+                changed |= others;
+            }
+            if !changed {
+                break;
             }
         }
         let first = &self.planners[0];
@@ -137,5 +238,57 @@ impl Planners {
         let impression = Impression::of(&observed, course);
         let evidence = self.evidence(first.decisions(), last.as_ref());
         Ok(Some(average(&self.agents, evidence, impression)))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Planners;
+    use crate::{Budget, Inference, InferenceSettings, InversePlanningSettings, PreparedEvent};
+    use core::ops::ControlFlow;
+    use phase_event::{ObservedEvent, Recording};
+    use phase_model::{
+        EventKind,
+        random::{Purpose, stream},
+    };
+    use phase_sim::SimulationSettings;
+
+    /// An event whose agents search little.
+    fn observed(kind: EventKind) -> ObservedEvent {
+        let scene = phase_sampler::sample_kind(kind, &mut stream(4, Purpose::Scene, 0)).expect("a scene");
+        let mut settings = SimulationSettings { max_steps: 60, ..SimulationSettings::default() };
+        settings.minds = settings.minds.with_simulations(50);
+        let event = phase_sim::simulate(&scene, 1, &settings).expect("a sound scene");
+        let recording = Recording::of_event("event", event, "test".into(), serde_json::Value::Null);
+        recording.observed().expect("a sound event")
+    }
+
+    /// The answer with a tolerated change of the posterior, and the decisions that it took.
+    fn weigh(prepared: &PreparedEvent, tolerated_change: f64) -> (Inference, usize) {
+        const PLENTY: usize = 1_000_000;
+        let planning = InversePlanningSettings { tolerated_change, ..InversePlanningSettings::default() };
+        let mut budget = Budget { decisions: Some(PLENTY) };
+        let gamma = InferenceSettings::default().gamma;
+        let tick = &mut || ControlFlow::Continue(());
+        let mut planners = Planners::new(prepared, &planning, None);
+        let inference =
+            planners.weigh(gamma, None, &mut budget, tick).expect("sound").expect("not cancelled");
+        (inference, PLENTY - budget.decisions.unwrap_or(PLENTY))
+    }
+
+    /// What is not looked at would not change the answer, and is a good part of all.
+    #[test]
+    fn decisions_that_change_nothing_are_not_simulated() {
+        let mut agents = InferenceSettings::default().agents;
+        agents.minds = agents.minds.with_particles(5).with_simulations(20);
+        let mut taken = [0; 2];
+        for kind in [EventKind::Helping, EventKind::Chasing] {
+            let prepared = PreparedEvent::new(&observed(kind), agents, 1);
+            let [(all, most), (some, fewer)] = [0.0, 0.01].map(|tolerated| weigh(&prepared, tolerated));
+            let change = all.posterior.total_variation(&some.posterior);
+            assert!(change < 0.1, "{kind:?}: {change}");
+            taken = [taken[0] + most, taken[1] + fewer];
+        }
+        assert!(taken[1] * 3 < taken[0] * 2, "{taken:?}");
     }
 }

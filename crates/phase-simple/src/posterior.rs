@@ -34,6 +34,16 @@ impl Posterior {
         Self { hypotheses }
     }
 
+    /// The total variation of two posteriors, 0 to 1: the greatest difference in the probability of anything.
+    #[must_use]
+    pub fn total_variation(&self, other: &Self) -> f64 {
+        let mut differences: BTreeMap<Hypothesis, f64> = self.hypotheses.iter().copied().collect();
+        for (hypothesis, weight) in &other.hypotheses {
+            *differences.entry(*hypothesis).or_default() -= weight;
+        }
+        differences.values().map(|difference| difference.abs()).sum::<f64>() / 2.0
+    }
+
     /// P(g_i | s) of an agent, most likely first, without those of zero weight.
     #[must_use]
     pub fn goals(&self, agent: AgentId) -> Vec<(Goal, f64)> {

@@ -154,6 +154,11 @@ pub struct InversePlanningSettings {
     /// Steps from one decision that is looked at to the next; at least 1. What lies between them is taken to
     /// be alike.
     pub interval: usize,
+    /// Change of the posterior (total variation, 0 to 1) that may be left unmade: an intent is looked at
+    /// every 24 steps at first (eight intervals), and twice as often while one standard error more or less
+    /// of its log likelihood would change the posterior by more. With 0 all decisions are looked at.
+    #[serde(default)]
+    pub tolerated_change: f64,
 }
 
 impl InversePlanningSettings {
@@ -187,6 +192,8 @@ pub struct ChainSettings {
     pub strengths: StrengthSource,
 }
 
+/// Change of the posterior that may be left unmade.
+const TOLERATED: f64 = 0.01;
 /// POMCP simulations a decision within an inference.
 const SIMULATIONS: usize = 50;
 /// Those of published minds, whose searches branch on more and are shared by many intents.
@@ -302,6 +309,7 @@ impl InferenceSettings {
                     (Setting::positive("tolerance", "u", 100.0), it.tolerance),
                     (lapses("temper"), it.inverse_temperature),
                     (steps("interval"), it.interval as f64),
+                    (Setting::real("tolerated_change", "", 0.0, 1.0), it.tolerated_change),
                 ],
             ),
             Algorithm::Chains(it) => checked(
@@ -338,7 +346,13 @@ impl ChainSettings {
 
 impl Default for InversePlanningSettings {
     fn default() -> Self {
-        Self { lapse_rate: 0.5, tolerance: 0.03, inverse_temperature: 1.0 / 6.0, interval: 3 }
+        Self {
+            lapse_rate: 0.5,
+            tolerance: 0.03,
+            inverse_temperature: 1.0 / 6.0,
+            interval: 3,
+            tolerated_change: TOLERATED,
+        }
     }
 }
 

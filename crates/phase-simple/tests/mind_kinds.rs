@@ -74,11 +74,18 @@ fn the_answer_is_the_average_over_kinds() {
     }
 }
 
+/// These settings of inverse planning, if every decision is looked at.
+fn looking_at_all(settings: InferenceSettings) -> InferenceSettings {
+    let Algorithm::InversePlanning(planning) = settings.algorithm else { panic!("not inverse planning") };
+    let planning = InversePlanningSettings { tolerated_change: 0.0, ..planning };
+    InferenceSettings { algorithm: Algorithm::InversePlanning(planning), ..settings }
+}
+
 /// An inference with one kind of minds is that kind's part of the average.
 #[test]
 fn one_kind_alone_gives_its_part_of_the_average() {
     let event = observed(Variant::Carry, MindKind::Published).prefix(8);
-    let both = InferenceSettings::averaged();
+    let both = looking_at_all(InferenceSettings::averaged());
     let average = explain(&event, &UniformStrength, 1, &both).expect("is sound");
     let first = both.with_agents(both.agents);
     let second = both.alternative.expect("there are two kinds");

@@ -5,11 +5,11 @@ use phase_event::{ObservedError, ObservedEvent};
 use phase_model::{Body, MAX_ENTITIES, State};
 
 /// Paths that are followed at once.
-const BEAM_WIDTH: usize = 16;
+const BEAM_WIDTH: usize = 8;
 /// Greatest number of paths with the same grips among them.
-const SAME_GRIPS: usize = 8;
-/// Paths whose cost exceeds that of the best by more are given up.
-const GIVE_UP: f64 = 15.0;
+const SAME_GRIPS: usize = 3;
+/// Paths whose cost exceeds that of the best by more, about one step that is not explained, are given up.
+const GIVE_UP: f64 = 5.0;
 
 /// All paths that were followed, and which of them still are.
 #[derive(Clone, Debug)]

@@ -212,7 +212,7 @@ fn agents(
             let mut one =
                 IntentEvidence::new(prepared, agent, intent, others, strengths).map_err(MethodError::new)?;
             one.follow(prepared, &likelihoods, &mut budget).map_err(MethodError::new)?;
-            evidence[agent].push(one.chances().iter().map(|chance| (chance.mind, chance.uniform)).collect());
+            evidence[agent].push(one.chances().map(|chance| (chance.mind, chance.uniform)).collect());
         }
     }
     Ok(Some(evidence))
