@@ -17,6 +17,10 @@ pub const PACKAGES: [(&str, &[(&str, &str)]); 4] = [
                 "check-search",
                 "Compare the decisions of short searches with those of a long one, by the priors of their root",
             ),
+            (
+                "check-track",
+                "Compare tracks with the motion in videos of known events that are drawn in several styles",
+            ),
             ("fit-forecast", "Fit how SIMPLE combines simulated futures"),
             ("fit-inference", "Fit how SIMPLE weighs its evidence to events whose labels are known"),
             ("fit-minds", "Fit the parameters of the minds to recordings or events whose labels are known"),

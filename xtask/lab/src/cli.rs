@@ -5,6 +5,7 @@ use crate::{
     check_minds::{self, options::CheckMinds},
     check_physics::{self, options::CheckPhysics},
     check_search,
+    check_track::{self, CheckTrack},
     error::LabError,
     fit_events::FitEvents,
     fit_forecast,
@@ -32,6 +33,8 @@ pub enum Command {
     CheckMinds(CheckMinds),
     /// Compare the decisions of short searches with those of a long one, by the priors of their root
     CheckSearch(FitEvents),
+    /// Compare tracks with the motion in videos of known events that are drawn in several styles
+    CheckTrack(CheckTrack),
     /// Fit the parameters of the minds to recordings or events whose labels are known
     FitMinds(FitMinds),
     /// Fit how SIMPLE weighs its evidence to events whose labels are known
@@ -45,7 +48,8 @@ pub enum Command {
 impl Interface for Command {
     type Error = LabError;
 
-    const ABOUT: &'static str = "Fits of minds and inference, and checks of minds, behaviour and physics";
+    const ABOUT: &'static str =
+        "Fits of minds and inference, and checks of minds, behaviour, physics and tracks";
 
     fn run(&self, context: &Context) -> Result<(), LabError> {
         match self {
@@ -53,6 +57,7 @@ impl Interface for Command {
             Self::CheckBehaviour(arguments) => check_behaviour::run(arguments, context),
             Self::CheckMinds(arguments) => check_minds::run(arguments, context),
             Self::CheckSearch(arguments) => check_search::run(arguments, context),
+            Self::CheckTrack(arguments) => check_track::run(arguments, context),
             Self::FitInference(arguments) => fit_inference::run(arguments, context),
             Self::FitMinds(arguments) => fit_minds::run(arguments, context),
             Self::FitForecast(arguments) => fit_forecast::run(arguments, context),

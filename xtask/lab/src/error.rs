@@ -26,6 +26,9 @@ pub enum LabError {
     /// The bundled intent network cannot be read.
     #[error("the bundled intent network: {0}")]
     IntentNetwork(#[from] phase_simple::intent_network::IntentNetworkError),
+    /// There is no place for a video that is looked at only once.
+    #[error("no temporary folder can be made: {0}")]
+    Scratch(#[source] std::io::Error),
     /// The user interrupted a command that keeps nothing of what it has done.
     #[error("interrupted; nothing is written")]
     Interrupted,
@@ -38,7 +41,7 @@ impl Failure for LabError {
             Self::Run(error) => error.exit_code(),
             Self::Calibration { .. } => 2,
             Self::Interrupted => 130,
-            Self::IntentNetwork(_) => 1,
+            Self::IntentNetwork(_) | Self::Scratch(_) => 1,
         }
     }
 }

@@ -1,9 +1,10 @@
 //! Fits of minds and inference to recordings and events whose labels are known, and checks of minds,
-//! behaviour and physics: commands of `cargo xtask`.
+//! behaviour, physics and tracks: commands of `cargo xtask`.
 //!
 //! - `check-behaviour` shows how reliably agents do what they are planned to do,
 //! - `check-minds` compares minds with recorded agents,
 //! - `check-physics` compares an engine with recorded motion,
+//! - `check-track` compares tracks with the motion in videos that it draws,
 //! - `fit-forecast` fits how SIMPLE combines simulated futures,
 //! - `fit-inference` fits how SIMPLE weighs its evidence,
 //! - `fit-minds` fits the parameters of minds to recorded agents,
@@ -20,6 +21,7 @@ pub mod check_behaviour;
 pub mod check_minds;
 pub mod check_physics;
 pub mod check_search;
+pub mod check_track;
 pub mod cli;
 pub mod error;
 mod evaluations_file;

@@ -24,6 +24,8 @@ const MOST_OPEN: f32 = 0.4;
 const SUDDEN_TURN: f32 = 0.35;
 /// Turn away from the prediction (rad) after which a fit goes on.
 const FAR_TURN: f32 = 0.15;
+/// Turns (rad) that put one side of an agent where another was, so that it looks much the same.
+const LOOKALIKES: [f32; 3] = [2.034_44, core::f32::consts::PI, -2.034_44];
 /// Frames after which they are tried in any case.
 const CHECK_EVERY: usize = 10;
 /// Share of what is unexplained that another pose must go below to be taken instead.
@@ -218,9 +220,7 @@ impl Known {
             starts.push(Pose { angle: it.fit.pose.angle, ..predicted });
         }
         if self.followed_frames.is_multiple_of(CHECK_EVERY) || turned.abs() > SUDDEN_TURN {
-            starts.extend(
-                [1, 2, 3].map(|k| Pose { angle: fit.pose.angle + 0.25 * TAU * k as f32, ..fit.pose }),
-            );
+            starts.extend(LOOKALIKES.map(|turn| Pose { angle: fit.pose.angle + turn, ..fit.pose }));
         }
         starts
     }
