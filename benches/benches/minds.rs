@@ -6,7 +6,7 @@ use criterion::{BenchmarkId, Criterion, SamplingMode};
 use phase_agent::{Mind, PolicyNetwork};
 use phase_belief::Belief;
 use phase_forward::Forward;
-use phase_minds::{Agent, BeliefView, PhaseParameters, Prior};
+use phase_minds::{Agent, BeliefView, Contest, PhaseParameters, Prior};
 use phase_model::{
     Action, AgentId, EventKind, Scene,
     random::{Purpose, stream},
@@ -98,6 +98,7 @@ fn main() {
             suppositions: &[],
             observed: observation.observed,
             last_action: None,
+            contest: Contest::default(),
         };
         let considered = mind.consider(belief).expect("something to choose");
         bencher

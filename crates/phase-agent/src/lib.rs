@@ -11,7 +11,7 @@
 //! An agent that faces the landmark it wants to reach, 5.5 u ahead in the same room, pushes forward:
 //!
 //! ```
-//! use phase_agent::{BeliefView, Mind, PhaseParameters};
+//! use phase_agent::{BeliefView, Contest, Mind, PhaseParameters};
 //! use phase_forward::Forward;
 //! use phase_model::{Action, AgentId, Scene, random::{Purpose, stream}};
 //! use phase_perception::observed_set;
@@ -28,7 +28,8 @@
 //! let parameters = PhaseParameters { simulations: 100, ..PhaseParameters::default() };
 //! let mut mind = Mind::new(&scene, AgentId::ZERO, Forward::new(&physics), parameters)?;
 //! let observed = observed_set(&physics, &state, AgentId::ZERO);
-//! let belief = BeliefView { particles: &[state], observed, last_action: None, suppositions: &[] };
+//! let (last_action, suppositions, contest) = (None, &[][..], Contest::default());
+//! let belief = BeliefView { particles: &[state], observed, last_action, suppositions, contest };
 //! let (action, thought) = mind.decide(belief, &mut stream(1, Purpose::Search, 0))?;
 //! assert_eq!(thought.subgoal.to_string(), "On(agent 0, landmark 1)");
 //! assert_eq!(action, Action::Up);
@@ -50,10 +51,13 @@ pub mod policy;
 pub mod rollout_policy;
 pub mod search_model;
 mod theory;
+mod view;
 
 pub use ascription::{AscribedPolicy, HabitPolicy, TheoryParameters};
 pub use matter::Consideration;
-pub use mind::{BeliefView, Mind};
+pub use mind::Mind;
 pub use parameters::{Foresight, PhaseParameters, Prior};
+pub use phase_belief::Contest;
 pub use policy::PolicyNetwork;
 pub use theory::{Supposition, TheoryOfMind};
+pub use view::BeliefView;

@@ -10,11 +10,12 @@ use crate::{
     rollout_policy,
     search_model::{SearchModel, SearchState},
     theory::{self, Supposition},
+    view::BeliefView,
 };
 use phase_event::{ActionEvaluation, SubgoalValue, Thought};
 use phase_model::{
-    AGENT_COUNT, Action, AgentId, Attitude, BodySet, Dynamics, Entity, Goal, Level, Literal, PhysicsConfig,
-    Predicate, PredicateTarget, Scene, State, Strength, Subgoal,
+    AGENT_COUNT, Action, AgentId, Attitude, BodySet, Dynamics, Entity, Goal, Level, Literal, ObjectId,
+    PhysicsConfig, Predicate, PredicateTarget, Scene, State, Strength, Subgoal,
     random::{Purpose, stream},
 };
 use phase_navigation::Navigator;
@@ -38,19 +39,6 @@ pub struct Mind<D> {
     navigator: Navigator,
     /// The additional parts of a mind that does not know the other's.
     ignorance: Option<Ignorance<D>>,
-}
-
-/// The belief state that a decision is based on.
-#[derive(Clone, Copy, Debug)]
-pub struct BeliefView<'a> {
-    /// Possible states of the world, all equally likely; at least one.
-    pub particles: &'a [State],
-    /// The entities that the agent observes now, itself included.
-    pub observed: BodySet,
-    /// The agent's own last action, if it has acted: action is a habit.
-    pub last_action: Option<Action>,
-    /// The supposition of each particle about the other; empty if the agent knows the other's goal.
-    pub suppositions: &'a [Supposition],
 }
 
 impl<D: Dynamics> Mind<D> {
@@ -247,7 +235,9 @@ impl<D: Dynamics> Mind<D> {
     /// One plan for each distinct particle, and the index of each particle's plan. When everything is
     /// observed all particles are equal and one plan suffices, or one for each supposition.
     fn plans(&mut self, belief_view: BeliefView<'_>, known: BodySet) -> (Vec<Plan>, Vec<usize>) {
-        let BeliefView { particles, suppositions, .. } = belief_view;
+        let BeliefView { particles, suppositions, contest, .. } = belief_view;
+        let PhaseParameters { patience, respite, .. } = self.parameters;
+        let ceded = contest.ceded(self.agent, patience, respite);
         let mut different: Vec<usize> = Vec::new();
         let mut plans = Vec::new();
         let mut plan_of = Vec::with_capacity(particles.len());
@@ -258,7 +248,7 @@ impl<D: Dynamics> Mind<D> {
             let seen = different.iter().position(|&other| same(other));
             plan_of.push(seen.unwrap_or_else(|| {
                 different.push(k);
-                plans.push(self.plan(particle, suppositions.get(k), known));
+                plans.push(self.plan(particle, suppositions.get(k), known, ceded));
                 plans.len() - 1
             }));
         }
@@ -266,9 +256,15 @@ impl<D: Dynamics> Mind<D> {
     }
 
     /// The plan from a particle.
-    fn plan(&mut self, particle: &State, supposition: Option<&Supposition>, known: BodySet) -> Plan {
+    fn plan(
+        &mut self,
+        particle: &State,
+        supposition: Option<&Supposition>,
+        known: BodySet,
+        ceded: Option<ObjectId>,
+    ) -> Plan {
         let (Some(ignorance), Some(supposition)) = (&mut self.ignorance, supposition) else {
-            return self.planner.plan(particle, known);
+            return self.planner.plan_ceding(particle, known, ceded);
         };
         let planner = ignorance.planners.entry(*supposition).or_insert_with(|| {
             let (physics, _) = &ignorance.worlds[usize::from(supposition.strength.level())];
@@ -282,7 +278,7 @@ impl<D: Dynamics> Mind<D> {
                 self.parameters.planning(),
             )
         });
-        planner.plan(particle, known)
+        planner.plan_ceding(particle, known, ceded)
     }
 
     /// The particles used as roots of the search. If the subgoal's target is unobserved, only those that

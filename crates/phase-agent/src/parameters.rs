@@ -72,9 +72,10 @@ impl Prior {
 
 /// The parameters of a PHASE mind: every number that shapes its decisions.
 ///
-/// Those of belief and search, up to `directions`, are the paper's where it gives them; `cargo xtask
-/// fit-minds` fits the others, and `docs/explanation/minds.md` says what was fitted to which events. Ranges
-/// are checked where parameters enter a program, by `phase_minds::MindParameters::validate`.
+/// Those of belief and search, up to `directions`, are the paper's where it gives them; `patience` and
+/// `respite` are medians of recorded contests, and `cargo xtask fit-minds` fits the others.
+/// `docs/explanation/minds.md` says what was fitted to which events. Ranges are checked where parameters
+/// enter a program, by `phase_minds::MindParameters::validate`.
 #[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PhaseParameters {
@@ -107,6 +108,11 @@ pub struct PhaseParameters {
     pub prior: Prior,
     /// Directions, evenly spaced, of the pushes and of the escapes that are tried; at least 1.
     pub directions: usize,
+    /// Steps for which two hold an object without moving it from its place before the one that held it first
+    /// lets go.
+    pub patience: u16,
+    /// Steps for which an agent that has let go leaves the object to the other.
+    pub respite: u16,
     /// Prior of the heuristic's action in PUCT, relative to that of any other; above 0.
     pub heuristic_prior: f64,
     /// Prior of repeating the last action, relative to that of any other; above 0.
@@ -245,6 +251,8 @@ impl Default for PhaseParameters {
             foresight: Foresight::Coarse,
             prior: Prior::Habits,
             directions: 8,
+            patience: 6,
+            respite: 11,
             heuristic_prior: 2.0,
             momentum_prior: 3.0,
             lateral_prior: 0.1,

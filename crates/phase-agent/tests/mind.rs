@@ -169,6 +169,7 @@ fn decide(scene: &Scene, seed: u64) -> (Action, Subgoal) {
         observed: observation.observed,
         last_action: None,
         suppositions: &[],
+        contest: belief.contest(),
     };
     let (action, thought) = mind.decide(view, &mut stream(seed, Purpose::Search, 0)).expect("a decision");
     (action, thought.subgoal)

@@ -1,6 +1,8 @@
 //! The policy network: decisions with it, and what its features do not depend on.
 
-use phase_agent::{BeliefView, Consideration, Mind, PhaseParameters, PolicyNetwork, Prior, policy::Features};
+use phase_agent::{
+    BeliefView, Consideration, Contest, Mind, PhaseParameters, PolicyNetwork, Prior, policy::Features,
+};
 use phase_forward::Forward;
 use phase_model::{
     Action, AgentId, BodySet, Scene, State,
@@ -26,7 +28,7 @@ fn mind(scene: &Scene, parameters: PhaseParameters) -> Mind<Forward> {
 }
 
 fn view<'a>(particles: &'a [State; 1], observed: BodySet) -> BeliefView<'a> {
-    BeliefView { particles, suppositions: &[], observed, last_action: None }
+    BeliefView { particles, suppositions: &[], observed, last_action: None, contest: Contest::default() }
 }
 
 fn considered(scene: &Scene) -> Consideration {

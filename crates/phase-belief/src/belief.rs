@@ -1,6 +1,9 @@
 //! The belief itself: particles, memory, and their update.
 
-use crate::{consistency::contradicted, memory::CellMemory, predict::predict, resampling::PoseSampler};
+use crate::{
+    consistency::contradicted, contest::Contest, memory::CellMemory, predict::predict,
+    resampling::PoseSampler,
+};
 use phase_model::{
     Action, AgentId, Body, BodySet, Contacts, Dynamics, Entity, MAX_ENTITIES, PhysicsConfig, State,
     geometry::Outline,
@@ -17,6 +20,7 @@ pub struct Belief {
     agent: AgentId,
     particles: Vec<State>,
     memory: CellMemory,
+    contest: Contest,
     resampled: usize,
     unresolved: usize,
 }
@@ -39,10 +43,12 @@ impl Belief {
             agent: observation.agent,
             particles: vec![blank; particle_count],
             memory: CellMemory::new(),
+            contest: Contest::default(),
             resampled: 0,
             unresolved: 0,
         };
         belief.memory.record_seen(&seen_or_covered(physics, observation));
+        belief.contest.follow(observation);
         let mut sampler = PoseSampler::new(physics, &belief.memory);
         let unknown: BodySet =
             physics.entities().filter(|&entity| !observation.observed.contains(entity)).collect();
@@ -65,6 +71,7 @@ impl Belief {
         rng: &mut impl Rng,
     ) {
         self.memory.record_seen(&seen_or_covered(physics, observation));
+        self.contest.follow(observation);
         (self.resampled, self.unresolved) = (0, 0);
         let mut sampler = PoseSampler::new(physics, &self.memory);
         let observed = observation.observed;
@@ -100,6 +107,12 @@ impl Belief {
     #[must_use]
     pub fn particles(&self) -> &[State] {
         &self.particles
+    }
+
+    /// The agent's memory of a contest for an object.
+    #[must_use]
+    pub const fn contest(&self) -> Contest {
+        self.contest
     }
 
     /// The step at which the agent last saw each cell. A cell that a known body covers entirely counts as

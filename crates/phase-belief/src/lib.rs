@@ -61,10 +61,12 @@
 
 mod belief;
 mod consistency;
+mod contest;
 mod memory;
 mod predict;
 mod resampling;
 mod weights;
 
 pub use belief::{Belief, PARTICLE_COUNT, overwrite};
+pub use contest::Contest;
 pub use memory::{AGENT_DECAY_STEPS, CellMemory, OBJECT_DECAY_STEPS, occupancy_weight};

@@ -1,6 +1,7 @@
 //! Length and look of the events of a dataset, where somebody asked for other than the usual ones.
 
 use phase_model::arena::{FRAMES_PER_SECOND, SUBSTEPS};
+use phase_sampler::Starts;
 use serde::{Deserialize, Serialize};
 
 /// Length and look of a dataset's events.
@@ -19,11 +20,25 @@ pub struct StimulusForm {
     /// Frames a second of video. Bodies move in straight lines between substeps, of which there are 20 a
     /// second.
     pub frame_rate: u32,
+    /// Places of bodies at the start.
+    #[serde(skip_serializing_if = "is_near")]
+    pub starts: Starts,
+}
+
+/// Whether bodies start near the points of the grid, which files do not say.
+fn is_near(starts: &Starts) -> bool {
+    *starts == Starts::Near
 }
 
 impl Default for StimulusForm {
     fn default() -> Self {
-        Self { steps: None, size: 480, palette: "paper".into(), frame_rate: FRAMES_PER_SECOND }
+        Self {
+            steps: None,
+            size: 480,
+            palette: "paper".into(),
+            frame_rate: FRAMES_PER_SECOND,
+            starts: Starts::Near,
+        }
     }
 }
 

@@ -42,6 +42,7 @@
 #![deny(missing_docs)]
 
 pub mod blocking;
+pub mod clarity;
 pub mod contact;
 pub mod effect;
 pub mod exploration;
@@ -56,6 +57,7 @@ pub mod rest;
 pub mod selection;
 pub mod track;
 
+pub use clarity::Clarity;
 pub use effect::Effect;
 pub use manner::Manner;
 pub use motion::{MotionStatistics, VideoMotion};

@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Manner {
-    /// The helper brings the object; the helpee does not hold it.
+    /// The helper brings the object; the helpee may try, but does not carry it.
     Fetching,
     /// The helper brings the object part of the way, and the helpee takes it on.
     HandingOver,
@@ -151,7 +151,8 @@ fn fetched(track: &Track, helper: AgentId, object: ObjectId) -> bool {
     let alone = holding::carried_alone(track, helper, object);
     alone.steps >= MIN_STEPS
         && alone.distance >= MIN_FETCHED
-        && holding::carried(track, helper.other(), object).steps < MIN_STEPS
+        && !carried_far(track, helper.other(), object)
+        && !carried_by_both(track, object)
 }
 
 fn handed_over(track: &Track, helper: AgentId, object: ObjectId) -> bool {

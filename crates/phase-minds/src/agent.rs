@@ -76,6 +76,7 @@ impl Agent {
             observed: self.observed,
             last_action: self.last_action,
             suppositions: self.belief.suppositions(),
+            contest: self.belief.contest(),
         };
         self.mind.decide(view, random)
     }

@@ -48,7 +48,7 @@ mod turns;
 
 pub use agent::Agent;
 pub use parameters::{MindKind, MindParameters, ParametersError};
-pub use phase_agent::{BeliefView, Foresight, PhaseParameters, Prior, Supposition};
+pub use phase_agent::{BeliefView, Contest, Foresight, PhaseParameters, Prior, Supposition};
 pub use phase_published::{PublishedParameters, RandomNumbers, SearchMemo};
 pub use ranges::{PARTICLES, SIMULATIONS};
 pub use turns::Recorder;
@@ -115,6 +115,11 @@ pub trait BeliefState: core::fmt::Debug + Send + Sync {
     /// For each particle what it supposes of the other agent's mind; empty if the agent knows its goal.
     fn suppositions(&self) -> &[Supposition] {
         &[]
+    }
+
+    /// The agent's memory of a contest for an object; published minds have none.
+    fn contest(&self) -> Contest {
+        Contest::default()
     }
 
     /// A copy of this belief.

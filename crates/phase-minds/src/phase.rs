@@ -2,7 +2,7 @@
 
 use crate::{BeliefState, Mind};
 use phase_agent::{BeliefView, Foresight, PhaseParameters, Supposition, TheoryOfMind};
-use phase_belief::Belief;
+use phase_belief::{Belief, Contest};
 use phase_event::Thought;
 use phase_forward::Forward;
 use phase_model::{Action, AgentId, PhysicsConfig, Scene, Sight, State, random::Pcg64Mcg};
@@ -116,6 +116,10 @@ impl BeliefState for PhaseBelief {
 
     fn particles(&self) -> &[State] {
         self.belief.particles()
+    }
+
+    fn contest(&self) -> Contest {
+        self.belief.contest()
     }
 
     fn boxed(&self) -> Box<dyn BeliefState> {

@@ -68,7 +68,7 @@ fn imagined(simulations: usize, searches: usize, rollout_steps: usize) -> Ranged
     (IMAGINED_STEPS, simulations as f64 * searches as f64 * rollout_steps as f64)
 }
 
-pub(crate) fn of_phase(parameters: &PhaseParameters) -> [Ranged; 45] {
+pub(crate) fn of_phase(parameters: &PhaseParameters) -> [Ranged; 47] {
     [
         (PARTICLES, parameters.particles as f64),
         (LAMBDA, parameters.lambda),
@@ -81,6 +81,8 @@ pub(crate) fn of_phase(parameters: &PhaseParameters) -> [Ranged; 45] {
         (Setting::real("decisiveness", "", 0.0, 100.0), parameters.decisiveness),
         (share("heuristic_share"), parameters.heuristic_share),
         (Setting::whole("directions", "", 1, 360), parameters.directions as f64),
+        (Setting::whole("patience", "steps", 1, 10_000), parameters.patience.into()),
+        (Setting::whole("respite", "steps", 0, 10_000), parameters.respite.into()),
         (ratio("heuristic_prior"), parameters.heuristic_prior),
         (ratio("momentum_prior"), parameters.momentum_prior),
         (ratio("lateral_prior"), parameters.lateral_prior),

@@ -4,8 +4,8 @@
 
 use phase_event::ActionEvaluation;
 use phase_minds::{
-    Agent, BeliefView, MindKind, MindParameters, PhaseParameters, PublishedParameters, Recorder, mind,
-    observe,
+    Agent, BeliefView, Contest, MindKind, MindParameters, PhaseParameters, PublishedParameters, Recorder,
+    mind, observe,
 };
 use phase_model::{
     Action, AgentBody, AgentId, BodySet, Dynamics, Entity, Flip, Layout, Scene, Strength,
@@ -124,7 +124,13 @@ fn evaluations(kind: MindKind, collisions: bool, height: f32) -> Vec<ActionEvalu
     let particles = [scene.initial_state()];
     let mut observed = BodySet::OBJECTS;
     AgentId::ALL.into_iter().for_each(|agent| observed.insert(Entity::Agent(agent)));
-    let belief = BeliefView { particles: &particles, observed, last_action: None, suppositions: &[] };
+    let belief = BeliefView {
+        particles: &particles,
+        observed,
+        last_action: None,
+        suppositions: &[],
+        contest: Contest::default(),
+    };
     // Few steps, in which only what is near can be reached.
     let parameters: MindParameters = match kind {
         MindKind::Phase => {

@@ -29,7 +29,7 @@ fn absent_parameters_have_their_defaults() {
 fn an_error_names_the_parameter_and_the_rule() {
     assert_eq!(refused(json!(3)), "parameters of minds must be an object");
     assert_eq!(refused(json!({"kind": "mine"})), "field `kind` must be phase or published, not \"mine\"");
-    assert_eq!(refused(json!({"patience": 3})), "field `patience` is no parameter of phase minds");
+    assert_eq!(refused(json!({"stamina": 3})), "field `stamina` is no parameter of phase minds");
     assert!(
         refused(json!({"simulations": "many"})).starts_with("field `simulations` is wrong: invalid type")
     );

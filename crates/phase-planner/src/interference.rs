@@ -22,9 +22,10 @@ use phase_navigation::{Gaps, Route};
 use phase_predicates::{achieved, is_true};
 
 /// The plan that raises the other's cost of a condition most; the condition is a positive goal. The agent
-/// stays only if the other cannot make the condition true at all; from a pursuer it keeps away even then.
+/// stays only if the other cannot make the condition true at all; from a pursuer it keeps away even then. It
+/// lays no hands on the object that it cedes.
 #[must_use]
-pub fn plan(problem: &PlanningProblem<'_>, agent: AgentId, condition: Goal) -> Plan {
+pub fn plan(problem: &PlanningProblem<'_>, agent: AgentId, condition: Goal, ceded: Option<ObjectId>) -> Plan {
     let interference = Interference::new(problem, agent, condition);
     let is_safe = interference.now >= problem.parameters.impassable;
     if is_safe && !interference.is_pursuit() {
@@ -32,7 +33,7 @@ pub fn plan(problem: &PlanningProblem<'_>, agent: AgentId, condition: Goal) -> P
     }
     let mut candidates = Vec::with_capacity(16);
     interference.places(&mut candidates);
-    interference.objects(&mut candidates);
+    interference.objects(ceded, &mut candidates);
     interference.doors(&mut candidates);
     interference.contact(&mut candidates);
     // The first of equals, so that the order above breaks ties.
@@ -204,9 +205,10 @@ impl<'a> Interference<'a> {
 
     /// Attach and On(object, landmark) for each object that the condition depends on. While the agent holds
     /// the object, the other has to pull against it; where it puts it down, the other has to fetch it.
-    fn objects(&self, candidates: &mut Vec<Candidate>) {
+    fn objects(&self, ceded: Option<ObjectId>, candidates: &mut Vec<Candidate>) {
         let others_task = self.others_task(None);
-        for object in self.problem.physics.objects().filter(|&object| others_task.is_relevant(object)) {
+        let may_take = |&object: &ObjectId| others_task.is_relevant(object) && Some(object) != ceded;
+        for object in self.problem.physics.objects().filter(may_take) {
             self.object(object, candidates);
         }
     }

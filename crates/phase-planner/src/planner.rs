@@ -12,7 +12,8 @@ use crate::{
     yielding,
 };
 use phase_model::{
-    AGENT_COUNT, AgentId, Attitude, BodySet, Entity, Goal, Layout, PhysicsConfig, Predicate, Sign, State,
+    AGENT_COUNT, AgentId, Attitude, BodySet, Entity, Goal, Layout, ObjectId, PhysicsConfig, Predicate, Sign,
+    State,
 };
 use phase_navigation::Map;
 use phase_predicates::achieved;
@@ -63,6 +64,14 @@ impl Planner {
     /// observes these entities.
     #[must_use]
     pub fn plan(&self, state: &State, observed: BodySet) -> Plan {
+        self.plan_ceding(state, observed, None)
+    }
+
+    /// The agent's best plan as by [`plan`](Self::plan) while it leaves an object to the other: it lets go of
+    /// it and lays no hands on it. An agent that wants the object goes where it is and waits; one that
+    /// prevents something does so by other means. Agents with the same goal cede nothing to each other.
+    #[must_use]
+    pub fn plan_ceding(&self, state: &State, observed: BodySet, ceded: Option<ObjectId>) -> Plan {
         let problem = PlanningProblem::new(&self.physics, &self.map, state, self.parameters);
         let own = self.goals[self.agent];
         let other = self.goals[self.agent.other()];
@@ -74,8 +83,17 @@ impl Planner {
             Attitude::Hinder => (other, other.sign() == Sign::Negative),
         };
         let condition = if goal.sign() == Sign::Positive { goal } else { goal.negated() };
+        let ceded = ceded.filter(|_| own != other);
+        if let Some(object) = ceded
+            && state.holds(self.agent, object)
+        {
+            return release(&problem, self.agent);
+        }
         match self.attitude {
-            _ if !is_wanted => self.prevent(&problem, condition, observed),
+            _ if !is_wanted => self.prevent(&problem, condition, observed, ceded),
+            _ if ceded.is_some_and(|object| goal.subject() == Entity::Object(object)) => {
+                self.wait_for(&problem, goal.subject(), observed)
+            }
             Attitude::Help => self.help(&problem, other, observed),
             Attitude::Neutral if own != other.negated() => self.pursue(&problem, own, other, observed),
             _ => self.contend(&problem, condition),
@@ -84,8 +102,14 @@ impl Planner {
 
     /// Raises the other's cost of a condition. An agent that would stay, since the other cannot make the
     /// condition true, has to observe that.
-    fn prevent(&self, problem: &PlanningProblem<'_>, condition: Goal, observed: BodySet) -> Plan {
-        let plan = interference::plan(problem, self.agent, condition);
+    fn prevent(
+        &self,
+        problem: &PlanningProblem<'_>,
+        condition: Goal,
+        observed: BodySet,
+        ceded: Option<ObjectId>,
+    ) -> Plan {
+        let plan = interference::plan(problem, self.agent, condition, ceded);
         let unseen = [condition.subject(), Entity::Agent(self.agent.other())];
         let unseen = unseen.into_iter().find(|&entity| !observed.contains(entity));
         match unseen {
@@ -96,8 +120,18 @@ impl Planner {
         }
     }
 
+    /// Goes where an object is that the other has, and stays there.
+    fn wait_for(&self, problem: &PlanningProblem<'_>, object: Entity, observed: BodySet) -> Plan {
+        let mut plan = inspect(problem, self.agent, object);
+        if observed.contains(object) {
+            plan.subgoals.retain(|&subgoal| subgoal != is(Predicate::Touch(self.agent, object)));
+        }
+        plan
+    }
+
     /// A neutral agent plans with its own actions. It relies on the other only if both have the same goal and
-    /// it cannot achieve it alone.
+    /// it cannot achieve it alone. As long as the other does not hold the goal's object, an agent that would
+    /// have no part in their plan tries alone, and so shows what it wants.
     fn pursue(&self, problem: &PlanningProblem<'_>, own: Goal, other: Goal, observed: BodySet) -> Plan {
         if let Some(plan) = self.finish(problem, own, observed) {
             return plan;
@@ -115,13 +149,39 @@ impl Planner {
             Some(plan) if own != other || plan.cost < self.parameters.impassable => {
                 to_subgoals(&task, &plan, self.agent)
             }
+            Some(plan) if !self.is_helped(problem, own) => {
+                let joint = self.joint_plan(problem, own, self.agent);
+                if joint.subgoals.is_empty() {
+                    let trying = to_subgoals(&task, &plan, self.agent);
+                    return Plan { distance: joint.distance, ..trying };
+                }
+                joint
+            }
             _ if own == other => self.cooperate(problem, own, self.agent, observed),
             _ => Plan::STAY,
         }
     }
 
-    /// The agent's part of the cheapest joint plan for a goal of `owner`, whom the other agent helps. An
-    /// agent without a part yields. Of two agents with the same goal each considers itself the owner.
+    /// Whether an agent cannot show that it wants a goal, or the other is at it: it has the object in hand.
+    fn is_helped(&self, problem: &PlanningProblem<'_>, goal: Goal) -> bool {
+        match goal.subject() {
+            Entity::Object(object) => problem.state.holds(self.agent.other(), object),
+            Entity::Agent(_) => true,
+        }
+    }
+
+    /// The agent's part of the cheapest joint plan for a goal of `owner`, whom the other agent helps. Of two
+    /// agents with the same goal each considers itself the owner.
+    fn joint_plan(&self, problem: &PlanningProblem<'_>, goal: Goal, owner: AgentId) -> Plan {
+        let mut efforts = [Effort::OWN; AGENT_COUNT];
+        efforts[owner.other()] = Effort::helper(self.parameters.effort);
+        let actors = [true; AGENT_COUNT];
+        let task = PlanningTask { problem, goal, actors, efforts, cooperative: true, narrowed: None };
+        search::solve(&task, Node::start(problem))
+            .map_or(Plan::STAY, |plan| to_subgoals(&task, &plan, self.agent))
+    }
+
+    /// The agent's [part](Self::joint_plan) of a joint plan. An agent without one yields.
     fn cooperate(
         &self,
         problem: &PlanningProblem<'_>,
@@ -129,12 +189,7 @@ impl Planner {
         owner: AgentId,
         observed: BodySet,
     ) -> Plan {
-        let mut efforts = [Effort::OWN; AGENT_COUNT];
-        efforts[owner.other()] = Effort::helper(self.parameters.effort);
-        let actors = [true; AGENT_COUNT];
-        let task = PlanningTask { problem, goal, actors, efforts, cooperative: true, narrowed: None };
-        let plan = search::solve(&task, Node::start(problem))
-            .map_or(Plan::STAY, |plan| to_subgoals(&task, &plan, self.agent));
+        let plan = self.joint_plan(problem, goal, owner);
         // An agent has to observe that it is not needed.
         let unseen = [goal.subject(), Entity::Agent(self.agent.other())];
         match unseen.into_iter().find(|&entity| !observed.contains(entity)) {

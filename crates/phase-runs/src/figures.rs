@@ -3,7 +3,7 @@
 use crate::{
     error::RunError,
     listener::Listener,
-    motion::{MOTION_FILE, Motions},
+    motion::{MOTION_FILE, Motions, Reports},
     shortcuts::{self, audited},
     source::EventInput,
 };
@@ -42,6 +42,7 @@ pub struct EventFigures {
     /// The shortcut audit: labels that can be predicted without looking at motion.
     audit: Option<Audit>,
     motions: Motions,
+    reports: Option<Reports>,
 }
 
 impl EventFigures {
@@ -53,13 +54,20 @@ impl EventFigures {
     pub fn of(path: &Path, threads: Option<usize>, listener: &dyn Listener) -> Result<Self, RunError> {
         let (statistics, selection) = statistics(path, listener)?;
         let motions = Motions::of(path, threads, listener)?;
-        Ok(Self { statistics, selection, audit: audited(path, threads, listener)?, motions })
+        let audit = audited(path, threads, listener)?;
+        Ok(Self { statistics, selection, audit, motions, reports: None })
+    }
+
+    /// These figures with predicted reports of the events beside their clarity.
+    #[must_use]
+    pub fn with_reports(self, reports: Reports) -> Self {
+        Self { reports: Some(reports), ..self }
     }
 
     /// The figures for programs.
     #[must_use]
     pub fn value(&self) -> Value {
-        let Self { statistics, selection, audit, motions } = self;
+        let Self { statistics, selection, audit, motions, .. } = self;
         let Statistics { events, lengths, goals, relations, kinds, layouts, .. } = statistics;
         let figure =
             |row: &StatisticsRow| json!({ "figure": row.what, "paper": row.paper, "here": row.ours });
@@ -69,14 +77,14 @@ impl EventFigures {
         json!({
             "events": events, "figures": figures, "lengths": lengths, "goals": goals, "relations": relations,
             "kinds": kinds, "layouts": layouts, "selection": selection, "shortcuts": shortcuts,
-            "motion": motions.value(),
+            "motion": motions.value(), "clarity": motions.clarity_value(),
         })
     }
 
     /// The figures for people.
     #[must_use]
     pub fn report(&self) -> String {
-        let Self { statistics, selection, audit, motions } = self;
+        let Self { statistics, selection, audit, motions, reports } = self;
         let mut text = statistics::table(&statistics.figures());
         text += &list("goal", "agents", statistics.goals.iter().map(|(goal, &count)| (goal.clone(), count)));
         text += &list(
@@ -88,6 +96,7 @@ impl EventFigures {
             text += &format!("\n{}", acceptance::table(selection));
         }
         text += &motions.table();
+        text += &motions.clarity(reports.as_ref());
         text += &shortcuts::section(audit.as_ref(), statistics.events);
         text
     }
@@ -98,7 +107,7 @@ impl EventFigures {
     /// # Errors
     /// If a file or the folder cannot be written.
     pub fn write(&self, out: &Path) -> Result<(), WriteError> {
-        let Self { statistics, selection, audit, motions } = self;
+        let Self { statistics, selection, audit, motions, .. } = self;
         let failed = |source| WriteError { path: out.to_owned(), action: "create the folder", source };
         fs::create_dir_all(out).map_err(failed)?;
         atomic::write(&out.join("stats.md"), self.report().as_bytes())?;

@@ -76,7 +76,7 @@ pub mod interrupt;
 pub mod laboratory;
 pub mod leaderboard;
 pub mod listener;
-mod motion;
+pub mod motion;
 pub mod parallel;
 pub mod picture;
 pub mod questions;

@@ -1,4 +1,4 @@
-//! Motion in each video, as a table, and by condition.
+//! Motion in each video and how clearly it shows its event, as a table, and by condition and variant.
 
 use crate::{
     error::RunError,
@@ -8,31 +8,78 @@ use crate::{
     words,
 };
 use phase_dataset::manifest::{MANIFEST_FILE, Manifest};
-use phase_evidence::{Track, VideoMotion};
+use phase_eval::{goals::RecognisedEvent, results::GOALS_FORMAT};
+use phase_evidence::{Clarity, Manner, Track, VideoMotion};
+use phase_files::{FileError, Problem, json::bytes};
+use phase_model::{Relation, RelationProbabilities};
 use phase_statistics::{mean, standard_deviation};
 use serde_json::{Value, json};
-use std::{collections::BTreeMap, path::Path};
+use std::{collections::BTreeMap, iter, path::Path};
 
 /// File name of the table, which has a row for each event.
 pub(crate) const MOTION_FILE: &str = "motion.csv";
 
 /// A measure: its column, whose end is its unit, and its value.
-type Measure = (&'static str, fn(&VideoMotion) -> f64);
+type Measure = (&'static str, fn(&Row) -> f64);
 
 /// The measures, in the order of their columns.
 const MEASURES: [Measure; 11] = [
-    ("path_0_u", |it| it.path[0]),
-    ("path_1_u", |it| it.path[1]),
-    ("speed_0_u_per_s", |it| it.speed[0]),
-    ("speed_1_u_per_s", |it| it.speed[1]),
-    ("acceleration_0_u_per_s2", |it| it.acceleration[0]),
-    ("acceleration_1_u_per_s2", |it| it.acceleration[1]),
-    ("distance_u", |it| it.distance),
-    ("least_distance_u", |it| it.least_distance),
-    ("agents_touch_share", |it| it.agents_touch),
-    ("contact_0_share", |it| it.contact[0]),
-    ("contact_1_share", |it| it.contact[1]),
+    ("path_0_u", |it| it.motion.path[0]),
+    ("path_1_u", |it| it.motion.path[1]),
+    ("speed_0_u_per_s", |it| it.motion.speed[0]),
+    ("speed_1_u_per_s", |it| it.motion.speed[1]),
+    ("acceleration_0_u_per_s2", |it| it.motion.acceleration[0]),
+    ("acceleration_1_u_per_s2", |it| it.motion.acceleration[1]),
+    ("distance_u", |it| it.motion.distance),
+    ("least_distance_u", |it| it.motion.least_distance),
+    ("agents_touch_share", |it| it.motion.agents_touch),
+    ("contact_0_share", |it| it.motion.contact[0]),
+    ("contact_1_share", |it| it.motion.contact[1]),
 ];
+
+/// Measures of clarity, in the order of their columns, which follow those of motion.
+const CLARITY: [Measure; 8] = [
+    ("knotted_share", |it| it.clarity.knotted),
+    ("knot_at_end_steps", |it| it.clarity.knot_at_end as f64),
+    ("spinning_share", |it| it.clarity.spinning),
+    ("trembling_share", |it| it.clarity.trembling),
+    ("remaining_0_u", |it| it.clarity.remaining[0]),
+    ("remaining_1_u", |it| it.clarity.remaining[1]),
+    ("at_object_end", |it| it.clarity.at_object.map(|at| f64::from(u8::from(at))).iter().sum()),
+    ("changes_late", |it| f64::from(u8::from(it.clarity.changes_late))),
+];
+
+/// The kind of file that `--results` takes.
+const RESULTS: &str = "set of results of eval goals";
+
+/// The reports of people that a method predicts, by event.
+#[derive(Clone, Debug)]
+pub struct Reports(BTreeMap<String, RelationProbabilities>);
+
+impl Reports {
+    /// Reads the results of `eval goals` by a method that predicts reports.
+    ///
+    /// # Errors
+    /// A file that cannot be read, that has other results, or no predicted reports.
+    pub fn read(file: &Path) -> Result<Self, RunError> {
+        let fail = |problem: Problem| RunError::File(FileError { file: file.to_owned(), problem });
+        let mut value = phase_model::json::parse(&bytes(file)?).map_err(|error| fail(error.into()))?;
+        if value["format"] != GOALS_FORMAT {
+            let rule = format!("field format must be {GOALS_FORMAT:?}");
+            return Err(fail(Problem::Shape { what: RESULTS, rule }));
+        }
+        let events = value.get_mut("events").map(Value::take).unwrap_or_default();
+        let events: Vec<RecognisedEvent> = serde_json::from_value(events)
+            .map_err(|source| fail(Problem::Incomplete { what: RESULTS, source }))?;
+        let reported = |event: RecognisedEvent| Some((event.id, event.answer.reported?));
+        let reports: BTreeMap<_, _> = events.into_iter().filter_map(reported).collect();
+        if reports.is_empty() {
+            let rule = "none of its events has predicted reports; its method must be simple";
+            return Err(RunError::Usage(format!("--results {}: {rule}", file.display())));
+        }
+        Ok(Self(reports))
+    }
+}
 
 /// An event and its motion.
 #[derive(Clone, Debug)]
@@ -41,7 +88,11 @@ struct Row {
     set: String,
     /// The stance of the agent that differs in a set, else the kind of event.
     condition: String,
+    /// Its kind, its variant and the manners that it shows, by which clarity is told.
+    groups: Vec<String>,
+    relation: Relation,
     motion: VideoMotion,
+    clarity: Clarity,
 }
 
 /// The motion in all videos of a dataset or of other events.
@@ -57,8 +108,7 @@ impl Motions {
         let manifest = path.join(MANIFEST_FILE);
         let manifest = manifest.is_file().then(|| Manifest::read(&manifest)).transpose()?;
         let entries = manifest.iter().flat_map(|manifest| &manifest.events);
-        let places: BTreeMap<&str, _> =
-            entries.filter_map(|entry| Some((entry.id.as_str(), entry.set.as_ref()?))).collect();
+        let entries: BTreeMap<&str, _> = entries.map(|entry| (entry.id.as_str(), entry)).collect();
         // Warnings about events have been printed by the first reader.
         let source = EventInput::open(path, &[], &Silent)?;
         let count = source.len();
@@ -68,31 +118,51 @@ impl Motions {
             progress.steps(1);
             let states = recording.trajectory.states();
             let track = Track { physics: recording.scene.physics(), states };
-            let place = places.get(recording.id.as_str());
+            let entry = entries.get(recording.id.as_str());
+            let place = entry.and_then(|entry| entry.set.as_ref());
             let condition =
                 place.map_or_else(|| recording.scene.kind.name(), |place| place.stance.name()).to_owned();
             let set = place.map_or_else(String::new, |place| place.set.clone());
-            let id = recording.id.clone();
-            Ok(Some(VideoMotion::of(&track).map(|motion| Row { id, set, condition, motion })))
+            let scene = &recording.scene;
+            let kind = scene.kind.name();
+            let variant = entry.and_then(|entry| entry.variant).map(|it| format!("{kind}, {}", it.name()));
+            let manners = Manner::shown(scene, &track).into_iter();
+            let manners = manners.map(|manner| format!("{kind}, seen: {}", manner.name()));
+            let groups = iter::once(kind.to_owned()).chain(variant).chain(manners).collect();
+            let (id, relation) = (recording.id.clone(), recording.relation);
+            let row = VideoMotion::of(&track).zip(Clarity::of(scene, &track));
+            Ok(Some(row.map(|(motion, clarity)| Row {
+                id,
+                set,
+                condition,
+                groups,
+                relation,
+                motion,
+                clarity,
+            })))
         })?;
         Ok(Self(rows.unwrap_or_default().into_iter().flatten().collect()))
     }
 
     /// The table, in CSV. Ids and names need no quotes.
     pub(crate) fn to_csv(&self) -> String {
-        let columns = MEASURES.map(|(name, _)| name).join(",");
+        let columns: Vec<&str> = MEASURES.iter().chain(&CLARITY).map(|(name, _)| *name).collect();
+        let columns = columns.join(",");
         let mut text = format!("id,set,condition,duration_s,{columns}\n");
-        for Row { id, set, condition, motion } in &self.0 {
-            let values = MEASURES.map(|(_, of)| format!("{:.4}", of(motion))).join(",");
+        for row in &self.0 {
+            let values: Vec<String> =
+                MEASURES.iter().chain(&CLARITY).map(|(_, of)| format!("{:.4}", of(row))).collect();
+            let values = values.join(",");
+            let Row { id, set, condition, motion, .. } = row;
             text += &format!("{id},{set},{condition},{:.2},{values}\n", motion.seconds);
         }
         text
     }
 
-    fn by_condition(&self) -> BTreeMap<&str, Vec<&VideoMotion>> {
-        let mut groups = BTreeMap::<&str, Vec<&VideoMotion>>::new();
+    fn by_condition(&self) -> BTreeMap<&str, Vec<&Row>> {
+        let mut groups = BTreeMap::<&str, Vec<&Row>>::new();
         for row in &self.0 {
-            groups.entry(&row.condition).or_default().push(&row.motion);
+            groups.entry(&row.condition).or_default().push(row);
         }
         groups
     }
@@ -103,8 +173,8 @@ impl Motions {
         let head: String = groups.iter().map(|(name, all)| format!(" {name} ({}) |", all.len())).collect();
         let mut text = format!("\n| motion: mean ± sd |{head}\n|---|{}\n", "---|".repeat(groups.len()));
         for (name, of) in MEASURES {
-            let cell = |motions: &Vec<&VideoMotion>| {
-                let values: Vec<f64> = motions.iter().map(|motion| of(motion)).collect();
+            let cell = |rows: &Vec<&Row>| {
+                let values: Vec<f64> = rows.iter().map(|row| of(row)).collect();
                 let sd = standard_deviation(&values).map_or_else(String::new, |sd| format!(" ± {sd:.2}"));
                 format!(" {:.2}{sd} |", mean(&values).unwrap_or_default())
             };
@@ -113,18 +183,65 @@ impl Motions {
         text
     }
 
-    /// Mean and standard deviation of each measure by condition, for programs.
+    /// Mean and standard deviation of each measure of motion by condition, for programs.
     pub(crate) fn value(&self) -> Value {
-        let group = |motions: &Vec<&VideoMotion>| -> Value {
-            let measure = |(name, of): Measure| {
-                let values: Vec<f64> = motions.iter().map(|motion| of(motion)).collect();
-                (name.to_owned(), json!({ "mean": mean(&values), "sd": standard_deviation(&values) }))
-            };
-            MEASURES.into_iter().map(measure).collect::<serde_json::Map<_, _>>().into()
-        };
-        let named = |(name, motions): (&&str, &Vec<&VideoMotion>)| {
-            ((*name).to_owned(), json!({ "videos": motions.len(), "measures": group(motions) }))
-        };
-        self.by_condition().iter().map(named).collect::<serde_json::Map<_, _>>().into()
+        value(self.by_condition(), &MEASURES)
     }
+
+    /// Mean and standard deviation of each measure of clarity by kind, variant and manner, for programs.
+    pub(crate) fn clarity_value(&self) -> Value {
+        value(self.by_group(), &CLARITY)
+    }
+
+    fn by_group(&self) -> BTreeMap<&str, Vec<&Row>> {
+        let mut groups = BTreeMap::<&str, Vec<&Row>>::new();
+        for row in &self.0 {
+            for name in &row.groups {
+                groups.entry(name).or_default().push(row);
+            }
+        }
+        groups
+    }
+
+    /// The mean of each measure of clarity by kind, variant and manner, as Markdown; with reports, also the
+    /// mean probability that people report the label, and how often it is the likeliest report.
+    pub(crate) fn clarity(&self, reports: Option<&Reports>) -> String {
+        let names: String = CLARITY.iter().map(|(name, _)| format!(" {name} |")).collect();
+        let head = if reports.is_some() { " label reported | likeliest |" } else { "" };
+        let columns = CLARITY.len() + 1 + if reports.is_some() { 2 } else { 0 };
+        let mut text =
+            format!("\n| clarity: mean | events |{names}{head}\n|---|{}\n", "---|".repeat(columns));
+        for (group, rows) in self.by_group() {
+            text += &format!("| {group} | {} |", rows.len());
+            for (_, of) in CLARITY {
+                let values: Vec<f64> = rows.iter().map(|row| of(row)).collect();
+                text += &format!(" {:.2} |", mean(&values).unwrap_or_default());
+            }
+            if let Some(reports) = reports {
+                let told: Vec<_> =
+                    rows.iter().filter_map(|row| Some((reports.0.get(&row.id)?, row.relation))).collect();
+                let label: Vec<f64> = told.iter().map(|(reported, label)| reported.of(*label)).collect();
+                let right = told.iter().filter(|(reported, label)| reported.most_likely() == *label).count();
+                let mean = mean(&label).map_or_else(|| "–".into(), |mean| format!("{mean:.2}"));
+                text += &format!(" {mean} | {right} of {} |", told.len());
+            }
+            text += "\n";
+        }
+        text
+    }
+}
+
+/// Mean and standard deviation of measures by groups.
+fn value(groups: BTreeMap<&str, Vec<&Row>>, measures: &[Measure]) -> Value {
+    let measured = |rows: &[&Row]| -> Value {
+        let measure = |&(name, of): &Measure| {
+            let values: Vec<f64> = rows.iter().map(|row| of(row)).collect();
+            (name.to_owned(), json!({ "mean": mean(&values), "sd": standard_deviation(&values) }))
+        };
+        measures.iter().map(measure).collect::<serde_json::Map<_, _>>().into()
+    };
+    let named = |(name, rows): (&str, Vec<&Row>)| {
+        (name.to_owned(), json!({ "videos": rows.len(), "measures": measured(&rows) }))
+    };
+    groups.into_iter().map(named).collect::<serde_json::Map<_, _>>().into()
 }

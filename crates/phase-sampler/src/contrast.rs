@@ -6,7 +6,7 @@
 
 use crate::{
     SampleError, Variant, adversarial,
-    draft::{Objects, agent_on, choose, object_on},
+    draft::{Objects, Starts, agent_on, choose, object_on},
     recipe::{self, MAX_DRAWS},
     requirements::is_playable,
 };
@@ -51,6 +51,8 @@ pub struct ContrastRequest<'a> {
     pub goal_index: usize,
     /// The layouts to draw from.
     pub layouts: &'a [Layout],
+    /// Places of bodies.
+    pub starts: Starts,
 }
 
 /// Scenes that differ in the stance of one agent.
@@ -162,7 +164,7 @@ fn propose(request: &ContrastRequest<'_>, random: &mut impl Rng) -> Option<Vec<S
     let layout = choose(request.layouts, random);
     // The bodies are those of hindering, whose requirements are the fewest.
     let draft = adversarial::hinder([goal.negated(), goal], random)?;
-    let bodies = draft.into_scene(EventKind::Hindering, layout, Objects::Two, random);
+    let bodies = draft.into_scene(EventKind::Hindering, layout, (Objects::Two, request.starts), random);
     request.stances.iter().map(|&stance| of_stance(&bodies, stance, request.about, elsewhere)).collect()
 }
 

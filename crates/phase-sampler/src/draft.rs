@@ -7,6 +7,7 @@ use phase_model::{
 };
 use phase_navigation::Crossing;
 use rand::{Rng, RngExt};
+use serde::{Deserialize, Serialize};
 
 /// Largest distance of a body at the start from its start point in each direction (u).
 const START_JITTER: f32 = 0.6;
@@ -25,6 +26,44 @@ pub enum Objects {
     Varied,
     /// Two, whatever the goals are about, so that their number reveals nothing.
     Two,
+}
+
+/// The places of bodies at the start.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Starts {
+    /// Anywhere near the points at which bodies may start.
+    #[default]
+    Near,
+    /// On these points, as in the published recordings. A body that a variant needs in another place, such as
+    /// a door, stays there.
+    Grid,
+}
+
+impl Starts {
+    /// Both values, the default first.
+    pub const ALL: [Self; 2] = [Self::Near, Self::Grid];
+
+    /// The name used in files and options.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Near => "near",
+            Self::Grid => "grid",
+        }
+    }
+
+    /// The place of a body that was drawn near a point.
+    fn place(self, drawn: Vec2) -> Vec2 {
+        let near = |point: &&Vec2| {
+            let off = (drawn - **point).abs();
+            off.x <= START_JITTER && off.y <= START_JITTER
+        };
+        match self {
+            Self::Near => drawn,
+            Self::Grid => arena::START_POINTS.iter().flatten().find(near).copied().unwrap_or(drawn),
+        }
+    }
 }
 
 /// Agents and objects, not yet in an arena.
@@ -52,7 +91,13 @@ impl SceneDraft {
 
     /// The scene. Distractor objects come first where the goals are about a later object; otherwise one is
     /// added in half of the cases, or as many as are missing of two.
-    pub fn into_scene(self, kind: EventKind, layout: Layout, count: Objects, random: &mut impl Rng) -> Scene {
+    pub fn into_scene(
+        self,
+        kind: EventKind,
+        layout: Layout,
+        (count, starts): (Objects, Starts),
+        random: &mut impl Rng,
+    ) -> Scene {
         let stray = |random: &mut _| object(any_size(random), any_room(random), random);
         let first = self.first_goal_object;
         let mut objects: Vec<ObjectSpec> = (0..first).map(|_| stray(random)).collect();
@@ -66,7 +111,12 @@ impl SceneDraft {
             }
             Objects::Two => objects.resize_with(MAX_OBJECTS, || stray(random)),
         }
-        Scene { layout, agents: self.agents, objects, kind }
+        let mut agents = self.agents;
+        let bodies = agents.iter_mut().map(|agent| &mut agent.start);
+        for body in bodies.chain(objects.iter_mut().map(|object| &mut object.start)) {
+            body.position = starts.place(body.position);
+        }
+        Scene { layout, agents, objects, kind }
     }
 }
 

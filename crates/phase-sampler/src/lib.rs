@@ -13,10 +13,11 @@
 //! ```
 //! use phase_model::random::{Purpose, stream};
 //! use phase_model::{AgentId, Attitude, Layout, Relation, Strength};
-//! use phase_sampler::{Request, Variant, feasibility, sample};
+//! use phase_sampler::{Request, Starts, Variant, feasibility, sample};
 //!
 //! let layouts: Vec<Layout> = Layout::all_used().collect();
-//! let request = Request { variant: Variant::Lift, goal_index: 0, layouts: &layouts };
+//! let starts = Starts::Near;
+//! let request = Request { variant: Variant::Lift, goal_index: 0, layouts: &layouts, starts };
 //! let scene = sample(&request, &mut stream(1, Purpose::Scene, 0))?;
 //! assert_eq!(scene.relation(), Relation::Friendly);
 //!
@@ -45,6 +46,7 @@ pub mod stage;
 pub mod variant;
 
 pub use contrast::{About, Contrast, ContrastRequest, Stance};
+pub use draft::Starts;
 pub use named::{NamedError, sample_named};
 pub use recipe::{Request, SampleError, sample, sample_kind, sample_variant};
 pub use stage::{Part, Stage};

@@ -2,7 +2,7 @@
 
 use crate::{
     Variant, adversarial,
-    draft::{Objects, SceneDraft, choose},
+    draft::{Objects, SceneDraft, Starts, choose},
     friendly, neutral,
     requirements::is_playable,
 };
@@ -22,6 +22,8 @@ pub struct Request<'a> {
     pub goal_index: usize,
     /// The layouts to draw from.
     pub layouts: &'a [Layout],
+    /// Places of bodies.
+    pub starts: Starts,
 }
 
 /// No scene of the variant was found.
@@ -55,10 +57,10 @@ pub fn sample(request: &Request<'_>, random: &mut impl Rng) -> Result<Scene, Sam
 /// One draw of a scene with role 0 as agent 0, which may be unable to show its variant; `None` if there is no
 /// place for its bodies.
 pub(crate) fn propose(request: &Request<'_>, count: Objects, random: &mut impl Rng) -> Option<Scene> {
-    let Request { variant, goal_index, layouts } = *request;
+    let Request { variant, goal_index, layouts, starts } = *request;
     let layout = choose(layouts, random);
     let draft = draft(variant, layout, variant.goals(goal_index), random)?;
-    Some(draft.into_scene(variant.kind(), layout, count, random))
+    Some(draft.into_scene(variant.kind(), layout, (count, starts), random))
 }
 
 /// Draws a scene of a variant in any of the 90 layouts, with any of its goals.
@@ -68,7 +70,7 @@ pub(crate) fn propose(request: &Request<'_>, count: Objects, random: &mut impl R
 pub fn sample_variant(variant: Variant, random: &mut impl Rng) -> Result<Scene, SampleError> {
     let layouts: Vec<Layout> = Layout::all_used().collect();
     let goal_index = random.random_range(0..variant.goal_count());
-    sample(&Request { variant, goal_index, layouts: &layouts }, random)
+    sample(&Request { variant, goal_index, layouts: &layouts, starts: Starts::Near }, random)
 }
 
 /// Draws a scene of a kind in any of the 90 layouts; one of the first edition's variants and goals are drawn

@@ -153,7 +153,9 @@ fn is_placed(variant: Variant, scene: &Scene) -> bool {
             away && place != room && place == other_room && helpee && near <= MAX_ARRIVAL
         }
         Variant::Carry => away && near.max(far) <= MAX_SHARED,
-        Variant::Fetch | Variant::Assist => away && near <= MAX_ARRIVAL,
+        // An agent that is far from what it wants does not come near enough to show it.
+        Variant::Fetch => away && near.max(far) <= MAX_ARRIVAL,
+        Variant::Assist => away && near <= MAX_ARRIVAL,
         Variant::HandOver => away && is_handed_over_on_the_way(scene, object, goal),
         Variant::Drag => away && near <= MAX_ARRIVAL,
         Variant::Take => beside && far + MIN_HEAD_START <= near && near <= MAX_ARRIVAL,

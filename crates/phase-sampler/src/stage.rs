@@ -8,7 +8,7 @@
 
 use crate::{
     Request, SampleError, Variant,
-    draft::{Objects, any_angle, choose, object_of},
+    draft::{Objects, Starts, any_angle, choose, object_of},
     recipe::{self, MAX_DRAWS},
     requirements,
 };
@@ -75,15 +75,20 @@ impl Stage {
     ///
     /// # Errors
     /// [`SampleError`] if the draws are exhausted, for example because no layout fits a variant.
-    pub fn sample(parts: &[Part], layouts: &[Layout], random: &mut impl Rng) -> Result<Self, SampleError> {
+    pub fn sample(
+        parts: &[Part],
+        layouts: &[Layout],
+        starts: Starts,
+        random: &mut impl Rng,
+    ) -> Result<Self, SampleError> {
         let Some(&lead) = parts.first() else { return Err(SampleError(Variant::Places)) };
         for goals in [Goals::Own, Goals::Any] {
             for draw in 0..MAX_STAGE_DRAWS {
                 let Some(layout) = layouts.get((draw / DRAWS_PER_LAYOUT) % layouts.len().max(1)) else {
                     break;
                 };
-                let request =
-                    Request { variant: lead.variant, goal_index: lead.goal_index, layouts: &[*layout] };
+                let Part { variant, goal_index } = lead;
+                let request = Request { variant, goal_index, layouts: &[*layout], starts };
                 let Some(scene) = recipe::propose(&request, Objects::Two, random) else { continue };
                 let stage = Self::of(&scene);
                 // Searching for plans takes the most time, so bodies at the wrong places are rejected before.

@@ -4,7 +4,7 @@ use phase_model::{
     AgentSpec, Attitude, Layout, Scene,
     random::{Purpose, stream},
 };
-use phase_sampler::{About, Contrast, ContrastRequest, Stance};
+use phase_sampler::{About, Contrast, ContrastRequest, Stance, Starts};
 use std::collections::BTreeSet;
 
 /// An agent without its goal and attitude.
@@ -19,7 +19,7 @@ fn sample(
     layouts: &[Layout],
     seed: u64,
 ) -> Option<Contrast> {
-    let request = ContrastRequest { stances, about, goal_index, layouts };
+    let request = ContrastRequest { stances, about, goal_index, layouts, starts: Starts::Near };
     Contrast::sample(&request, &mut stream(seed, Purpose::Scene, 0)).ok()
 }
 

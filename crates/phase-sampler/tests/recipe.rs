@@ -5,7 +5,7 @@ use phase_model::{
     random::{Purpose, stream},
 };
 use phase_predicates::achieved;
-use phase_sampler::{Request, SampleError, Variant, sample, sample_kind};
+use phase_sampler::{Request, SampleError, Starts, Variant, sample, sample_kind};
 use proptest::prelude::*;
 use std::collections::BTreeSet;
 
@@ -46,7 +46,7 @@ proptest! {
     ) {
         let variant = Variant::ALL[which];
         let layouts = all_layouts();
-        let request = Request { variant, goal_index, layouts: &layouts };
+        let request = Request { variant, goal_index, layouts: &layouts, starts: Starts::Near };
         let scene = sample(&request, &mut stream(seed, Purpose::Scene, 0)).unwrap();
         prop_assert_eq!(scene.kind, variant.kind());
         prop_assert_eq!(scene.validate_without_overlap(), Ok(()));
@@ -82,7 +82,8 @@ fn all_values_of_every_variable_occur() {
     let mut social = [0; 2];
     for variant in Variant::ALL {
         for index in 0..60 {
-            let request = Request { variant, goal_index: index as usize, layouts: &layouts };
+            let request =
+                Request { variant, goal_index: index as usize, layouts: &layouts, starts: Starts::Near };
             let scene = sample(&request, &mut stream(7, Purpose::Scene, index)).unwrap();
             used.insert(scene.layout);
             objects.insert(scene.objects.len());
@@ -131,7 +132,8 @@ fn layouts_come_from_the_pool_alone() {
     for variant in Variant::ALL {
         let drawn: BTreeSet<Layout> = (0..12)
             .filter_map(|index| {
-                let request = Request { variant, goal_index: index as usize, layouts: &pool };
+                let request =
+                    Request { variant, goal_index: index as usize, layouts: &pool, starts: Starts::Near };
                 sample(&request, &mut stream(1, Purpose::Scene, index)).ok()
             })
             .map(|scene| scene.layout)
@@ -140,10 +142,10 @@ fn layouts_come_from_the_pool_alone() {
     }
     // Without a narrow door no agent is kept out by one.
     let open = [Layout::new(0, None).unwrap()];
-    let request = Request { variant: Variant::Blocked, goal_index: 0, layouts: &open };
+    let request = Request { variant: Variant::Blocked, goal_index: 0, layouts: &open, starts: Starts::Near };
     let refused = sample(&request, &mut stream(1, Purpose::Scene, 0));
     assert_eq!(refused, Err(SampleError(Variant::Blocked)));
-    let none = Request { variant: Variant::Chase, goal_index: 0, layouts: &[] };
+    let none = Request { variant: Variant::Chase, goal_index: 0, layouts: &[], starts: Starts::Near };
     assert!(sample(&none, &mut stream(1, Purpose::Scene, 0)).is_err());
 }
 
@@ -154,5 +156,23 @@ fn one_stream_one_scene() {
         assert_eq!(draw(0).kind, kind);
         assert_eq!(draw(0), draw(0));
         assert_ne!(draw(0), draw(1));
+    }
+}
+
+/// On the grid are all bodies that no variant needs elsewhere, and the scenes are as sound as others.
+#[test]
+fn bodies_start_on_the_grid_where_that_is_asked_for() {
+    let layouts: Vec<Layout> = Layout::all_used().collect();
+    let elsewhere = [Variant::Move, Variant::MakeWay];
+    for variant in Variant::ALL.into_iter().filter(|variant| !elsewhere.contains(variant)) {
+        let request = Request { variant, goal_index: 1, layouts: &layouts, starts: Starts::Grid };
+        let scene = sample(&request, &mut stream(5, Purpose::Scene, 0)).expect("a scene");
+        let agents = scene.agents.iter().map(|agent| agent.start.position);
+        let places: Vec<_> = agents.chain(scene.objects.iter().map(|object| object.start.position)).collect();
+        let on_grid = places
+            .iter()
+            .all(|place| phase_model::arena::START_POINTS.iter().flatten().any(|point| point == place));
+        assert!(on_grid, "{}: {places:?}", variant.name());
+        assert!(scene.validate_without_overlap().is_ok());
     }
 }

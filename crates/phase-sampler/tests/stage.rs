@@ -5,7 +5,7 @@ use phase_model::{
     random::{Purpose, stream},
 };
 use phase_navigation::{IMPASSABLE_COST, Map};
-use phase_sampler::{Part, SampleError, Stage, Variant};
+use phase_sampler::{Part, SampleError, Stage, Starts, Variant};
 use std::collections::BTreeSet;
 
 fn parts(variants: &[Variant], goal_index: usize) -> Vec<Part> {
@@ -31,10 +31,10 @@ fn every_part_is_played_by_the_same_bodies() {
         let mut random = stream(3, Purpose::Stage, k as u64);
         let mut layouts = layouts.clone();
         layouts.rotate_left(17 * k);
-        let stage = Stage::sample(&parts, &layouts, &mut random).unwrap();
+        let stage = Stage::sample(&parts, &layouts, Starts::Near, &mut random).unwrap();
         let mut relations = BTreeSet::new();
         for &part in &parts {
-            let scene = stage.cast(part, &mut random).unwrap();
+            let scene = stage.scene(part, &mut random).unwrap();
             assert_eq!(scene.kind, part.variant.kind());
             assert_eq!(scene.validate_without_overlap(), Ok(()));
             assert_eq!(scene.check_kind(), Ok(()));
@@ -54,8 +54,13 @@ fn objects_are_handed_over_on_their_way() {
     for k in 0..12 {
         let mut random = stream(5, Purpose::Stage, k);
         layouts.rotate_left(7);
-        let stage =
-            Stage::sample(&parts(&[Variant::HandOver, Variant::Carry], 0), &layouts, &mut random).unwrap();
+        let stage = Stage::sample(
+            &parts(&[Variant::HandOver, Variant::Carry], 0),
+            &layouts,
+            Starts::Near,
+            &mut random,
+        )
+        .unwrap();
         let scene =
             stage.cast(Part { variant: Variant::HandOver, goal_index: k as usize }, &mut random).unwrap();
         let is_helpee = |agent: &AgentId| scene.agents[*agent].attitude == Attitude::Neutral;
@@ -91,7 +96,7 @@ fn nearly_every_part_has_its_own_goals() {
         layouts.rotate_left(11);
         let mut random = stream(7, Purpose::Stage, k as u64);
         let parts = parts(&blocks[k % 2], k);
-        let stage = Stage::sample(&parts, &layouts, &mut random).unwrap();
+        let stage = Stage::sample(&parts, &layouts, Starts::Near, &mut random).unwrap();
         for part in parts {
             let scene = stage.scene(part, &mut random).unwrap();
             let landmarks =
@@ -107,8 +112,9 @@ fn a_stage_that_cannot_be_is_an_error() {
     let open = [Layout::new(0, None).unwrap()];
     let mut random = stream(1, Purpose::Stage, 0);
     // Without a narrow door nobody is kept out by one.
-    let refused = Stage::sample(&parts(&[Variant::HandOver, Variant::Carry], 0), &open, &mut random);
+    let refused =
+        Stage::sample(&parts(&[Variant::HandOver, Variant::Carry], 0), &open, Starts::Near, &mut random);
     assert_eq!(refused, Err(SampleError(Variant::HandOver)));
-    assert!(Stage::sample(&[], &open, &mut random).is_err());
-    assert!(Stage::sample(&parts(&[Variant::Places], 0), &[], &mut random).is_err());
+    assert!(Stage::sample(&[], &open, Starts::Near, &mut random).is_err());
+    assert!(Stage::sample(&parts(&[Variant::Places], 0), &[], Starts::Near, &mut random).is_err());
 }

@@ -2,7 +2,9 @@
 
 use crate::simulation::belief_stream;
 use phase_event::Event;
-use phase_minds::{BeliefState, BeliefView, MindParameters, Supposition, belief_in, first_observation};
+use phase_minds::{
+    BeliefState, BeliefView, Contest, MindParameters, Supposition, belief_in, first_observation,
+};
 use phase_model::{AgentId, BodySet, State, arena::SUBSTEPS};
 use phase_perception::{CellSet, Observation};
 
@@ -17,6 +19,8 @@ pub struct BeliefSnapshot {
     pub particles: Vec<State>,
     /// For each particle what it supposes of the other; empty if the agent knows the other's goal.
     pub suppositions: Vec<Supposition>,
+    /// Its memory of a contest for an object.
+    pub contest: Contest,
 }
 
 /// The beliefs of an agent before each step of an event, and one more after the last.
@@ -34,6 +38,7 @@ pub fn beliefs(event: &Event, agent: AgentId, minds: &MindParameters) -> Vec<Bel
         observed: observation.observed,
         particles: belief.particles().to_vec(),
         suppositions: belief.suppositions().to_vec(),
+        contest: belief.contest(),
     };
     let mut snapshots = vec![snapshot(&first, &*belief)];
     for step in &event.steps {
@@ -55,7 +60,7 @@ pub fn belief_view<'a>(
     step: usize,
     beliefs: &'a [BeliefSnapshot],
 ) -> BeliefView<'a> {
-    let BeliefSnapshot { observed, particles, suppositions, .. } = &beliefs[step];
+    let BeliefSnapshot { observed, particles, suppositions, contest, .. } = &beliefs[step];
     let last_action = step.checked_sub(1).map(|last| event.steps[last].actions[agent]);
-    BeliefView { particles, suppositions, observed: *observed, last_action }
+    BeliefView { particles, suppositions, observed: *observed, last_action, contest: *contest }
 }

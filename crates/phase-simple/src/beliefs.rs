@@ -1,10 +1,11 @@
 //! Beliefs of the agents of an observed event, estimated from their reconstructed observations.
 
+use crate::simulation_run::Outlook;
 use phase_belief::overwrite;
 use phase_event::ObservedEvent;
 use phase_minds::{BeliefState, MindParameters, belief, observe};
 use phase_model::{
-    AGENT_COUNT, Action, AgentId, BodySet, State,
+    AGENT_COUNT, Action, AgentId, State,
     arena::SUBSTEPS,
     random::{self, Pcg64Mcg, Purpose},
 };
@@ -53,15 +54,14 @@ impl EstimatedBeliefs {
     }
 
     /// The agent's belief after the given number of steps if the world is in this state: from what it
-    /// has observed until then in the event, and what it observes now. The particles, and the entities that
-    /// it observes.
+    /// has observed until then in the event, and what it observes now.
     #[must_use]
-    pub(crate) fn belief_view(&self, step: usize, state: &State) -> (Vec<State>, BodySet) {
+    pub(crate) fn outlook(&self, step: usize, state: &State) -> Outlook {
         let (known, _) = &self.steps[step.min(self.steps.len() - 1)];
         let observation = known.observe(state);
         let mut particles = known.particles().to_vec();
         particles.iter_mut().for_each(|particle| overwrite(particle, &observation));
-        (particles, observation.observed)
+        Outlook { particles, observed: observation.observed, contest: known.contest() }
     }
 
     /// The belief after the given number of steps, to continue from.

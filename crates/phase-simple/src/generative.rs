@@ -1,7 +1,9 @@
 //! G(Y): simulation of the event under a hypothesis.
 
 use crate::{
-    Hypothesis, ImaginedAgents, InverseDynamics, beliefs::EstimatedBeliefs, simulation_run::SimulationRun,
+    Hypothesis, ImaginedAgents, InverseDynamics,
+    beliefs::EstimatedBeliefs,
+    simulation_run::{Outlook, SimulationRun},
 };
 use phase_event::{ObservedEvent, Thought};
 use phase_minds::{MindParameters, SearchMemo};
@@ -121,7 +123,7 @@ impl PreparedEvent {
             {
                 self.resynchronise(&mut run, step - 1);
             }
-            let outlooks = AgentId::ALL.map(|agent| self.beliefs[agent].belief_view(step - 1, &run.state));
+            let outlooks = AgentId::ALL.map(|agent| self.beliefs[agent].outlook(step - 1, &run.state));
             let (means, _) = run.step(&outlooks)?;
             let deviation = self.deviation(&means, row);
             deviations.push(deviation);
@@ -170,8 +172,8 @@ impl PreparedEvent {
                 self.resynchronise(&mut run, step);
             }
             self.lead(&mut run, agent, step)?;
-            let belief_view = self.beliefs[agent].belief_view(step, &run.state);
-            let (action, thought) = run.decide(agent, &belief_view)?;
+            let outlook = self.beliefs[agent].outlook(step, &run.state);
+            let (action, thought) = run.decide(agent, &outlook)?;
             let mut actions = *action_likelihoods;
             actions[agent] = action;
             let means = run.act(actions);
@@ -236,15 +238,15 @@ impl PreparedEvent {
         let seed = random::derive_seed(self.seed, Purpose::Search, step as u64);
         run.random = AgentId::ALL.map(|agent| random::stream(seed, Purpose::Search, agent.number().into()));
         self.lead(run, agent, step)?;
-        let belief_view = self.beliefs[agent].belief_view(step, &run.state);
-        run.decide(agent, &belief_view)
+        let outlook = self.beliefs[agent].outlook(step, &run.state);
+        run.decide(agent, &outlook)
     }
 
     /// Lets the first agent decide where the second one's random numbers follow from its own.
     fn lead(&self, run: &mut SimulationRun, agent: AgentId, step: usize) -> Result<(), PomcpError> {
         if run.shares_random && agent == AgentId::ONE {
-            let belief_view = self.beliefs[AgentId::ZERO].belief_view(step, &run.state);
-            run.decide(AgentId::ZERO, &belief_view)?;
+            let outlook = self.beliefs[AgentId::ZERO].outlook(step, &run.state);
+            run.decide(AgentId::ZERO, &outlook)?;
         }
         Ok(())
     }
@@ -277,7 +279,11 @@ impl PreparedEvent {
         for _ in 0..steps {
             let outlooks = AgentId::ALL.map(|agent| {
                 let observation = beliefs[agent].observe(&run.state);
-                (beliefs[agent].particles().to_vec(), observation.observed)
+                Outlook {
+                    particles: beliefs[agent].particles().to_vec(),
+                    observed: observation.observed,
+                    contest: beliefs[agent].contest(),
+                }
             });
             let (means, actions) = run.step(&outlooks)?;
             for (positions, mean) in forecast.iter_mut().zip(means) {

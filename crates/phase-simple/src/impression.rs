@@ -61,10 +61,6 @@ impl Happening {
 #[derive(Clone, Copy, PartialEq, Debug, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Interaction {
-    /// Share in which they touched.
-    pub touching: f64,
-    /// Share in which both touched the same object.
-    pub same_object: f64,
     /// Share in which they were near each other.
     pub near: f64,
     /// The geometric mean of the shares in which either touched an object, of the object for which it is
@@ -89,16 +85,19 @@ impl Interaction {
             rows.iter().filter(|row| holds(row)).count() as f64 / rows.len() as f64
         };
         let [one, other] = AgentId::ALL.map(Entity::Agent);
-        let objects = || ObjectId::ALL.into_iter().take(observed.object_sizes().len()).map(Entity::Object);
-        let at = |row: &[Body; MAX_ENTITIES], agent, object| gap(row, agent, object) < CONTACT;
-        let shared =
-            |object| libm::sqrt(share(&|row| at(row, one, object)) * share(&|row| at(row, other, object)));
+        let objects = ObjectId::ALL.into_iter().take(observed.object_sizes().len()).map(Entity::Object);
+        let at = |agent, object| share(&|row| gap(row, agent, object) < CONTACT);
+        let shared = |object| libm::sqrt(at(one, object) * at(other, object));
         Self {
-            touching: share(&|row| gap(row, one, other) < CONTACT),
-            same_object: share(&|row| objects().any(|object| at(row, one, object) && at(row, other, object))),
             near: share(&|row| gap(row, one, other) < NEAR),
-            shared_object: objects().map(shared).fold(0.0, f64::max),
+            shared_object: objects.map(shared).fold(0.0, f64::max),
         }
+    }
+
+    /// The extent to which they had to do with each other in either way.
+    #[must_use]
+    pub fn involvement(&self) -> f64 {
+        self.near.max(self.shared_object)
     }
 }
 

@@ -1,6 +1,6 @@
 //! The prediction of people's reports from an impression.
 
-use crate::impression::{HAPPENINGS, Impression, Interaction};
+use crate::impression::{HAPPENINGS, Impression};
 use phase_model::RelationProbabilities;
 use phase_statistics::softmax;
 use serde::{Deserialize, Serialize};
@@ -9,20 +9,19 @@ use thiserror::Error;
 /// The value of the field `format` of a file.
 pub const REPORT_MODEL_FORMAT: &str = "phase-report-model/1";
 /// Number of features of an impression.
-pub const REPORT_FEATURES: usize = HAPPENINGS + 4;
+pub const REPORT_FEATURES: usize = HAPPENINGS + 1;
 /// Number of reports: friendly, adversarial, neutral.
 pub const REPORTS: usize = 3;
 /// Added to the probability of what goes on before its logarithm is taken: below it, people do not tell
 /// apart.
 const FLOOR: f64 = 0.02;
 
-/// The features of an impression: the logarithm of how likely each happening was on the way, and the shares
-/// of time in which the agents interacted.
+/// The features of an impression: the logarithm of how likely each happening was on the way, and the extent
+/// to which the agents had to do with each other.
 #[must_use]
 pub fn report_features(impression: &Impression) -> [f64; REPORT_FEATURES] {
-    let Interaction { touching, same_object, near, shared_object } = impression.interaction;
     let logs = impression.happenings.map(|share| libm::log(share + FLOOR));
-    let mut features = logs.into_iter().chain([touching, same_object, near, shared_object]);
+    let mut features = logs.into_iter().chain([impression.interaction.involvement()]);
     core::array::from_fn(|_| features.next().unwrap_or_default())
 }
 

@@ -3,7 +3,7 @@
 use crate::{Hypothesis, ImaginedAgents};
 use phase_event::{ObservedEvent, Thought};
 use phase_forward::{Forward, SolverCache};
-use phase_minds::{BeliefView, Mind, Recorder, SearchMemo, mind, mind_sharing};
+use phase_minds::{BeliefView, Contest, Mind, Recorder, SearchMemo, mind, mind_sharing};
 use phase_model::{
     AGENT_COUNT, Action, AgentBody, AgentId, BodySet, Layout, MAX_ENTITIES, State, Vec2,
     arena::SUBSTEPS,
@@ -33,7 +33,14 @@ pub(crate) struct SimulationRun {
 }
 
 /// The states that each agent believes possible, and the entities that it observes.
-pub(crate) type BeliefViews = [(Vec<State>, BodySet); AGENT_COUNT];
+pub(crate) type Outlooks = [Outlook; AGENT_COUNT];
+
+/// The belief and the observation that an agent decides by.
+pub(crate) struct Outlook {
+    pub(crate) particles: Vec<State>,
+    pub(crate) observed: BodySet,
+    pub(crate) contest: Contest,
+}
 
 impl SimulationRun {
     pub(crate) fn new(
@@ -86,11 +93,11 @@ impl SimulationRun {
     /// Both decide and act: the mean positions of all bodies over the step, and their actions.
     pub(crate) fn step(
         &mut self,
-        outlooks: &BeliefViews,
+        outlooks: &Outlooks,
     ) -> Result<([Vec2; MAX_ENTITIES], [Action; AGENT_COUNT]), PomcpError> {
         let mut actions = [Action::NoForce; AGENT_COUNT];
-        for (agent, belief_view) in AgentId::ALL.into_iter().zip(outlooks) {
-            (actions[agent], _) = self.decide(agent, belief_view)?;
+        for (agent, outlook) in AgentId::ALL.into_iter().zip(outlooks) {
+            (actions[agent], _) = self.decide(agent, outlook)?;
         }
         Ok((self.act(actions), actions))
     }
@@ -99,13 +106,14 @@ impl SimulationRun {
     pub(crate) fn decide(
         &mut self,
         agent: AgentId,
-        (particles, observed): &(Vec<State>, BodySet),
+        outlook: &Outlook,
     ) -> Result<(Action, Thought), PomcpError> {
         let belief_view = BeliefView {
-            particles,
-            observed: *observed,
+            particles: &outlook.particles,
+            observed: outlook.observed,
             last_action: self.last_actions[agent],
             suppositions: &[],
+            contest: outlook.contest,
         };
         // The original's random numbers go on from the first agent's search to the second's.
         if let (AgentId::ONE, Some(position)) = (agent, self.led_to.take()) {

@@ -6,7 +6,7 @@ use phase_model::{
     AgentId, Attitude, Goal, LandmarkId, Layout, ObjectId, Relation,
     random::{Purpose, stream},
 };
-use phase_sampler::{Request, Variant, sample};
+use phase_sampler::{Request, Starts, Variant, sample};
 use phase_simple::{
     ChainSettings, Inference, InferenceSettings, InverseDynamics, PreparedEvent, UniformStrength, Update,
     explain,
@@ -16,7 +16,7 @@ use serde_json::json;
 /// An event of a variant, by agents with smaller searches than the paper's.
 fn event(variant: Variant, seed: u64) -> Event {
     let layouts: Vec<Layout> = Layout::all_used().collect();
-    let request = Request { variant, goal_index: seed as usize, layouts: &layouts };
+    let request = Request { variant, goal_index: seed as usize, layouts: &layouts, starts: Starts::Near };
     let scene = sample(&request, &mut stream(seed, Purpose::Scene, 0)).expect("there are such scenes");
     let minds = MindParameters::default().with_simulations(100);
     let settings = phase_sim::SimulationSettings { minds, ..phase_sim::SimulationSettings::default() };

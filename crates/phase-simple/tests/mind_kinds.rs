@@ -6,7 +6,7 @@ use phase_model::{
     Layout,
     random::{Purpose, stream},
 };
-use phase_sampler::{Request, Variant, sample};
+use phase_sampler::{Request, Starts, Variant, sample};
 use phase_sim::SimulationSettings;
 use phase_simple::{
     Algorithm, Cues, Inference, InferenceSettings, InversePlanningSettings, PreparedEvent, UniformStrength,
@@ -23,7 +23,7 @@ const ODDS: f64 = 9.0;
 /// The start of an event of a variant by minds of a kind.
 fn observed(variant: Variant, kind: MindKind) -> ObservedEvent {
     let layouts: Vec<Layout> = Layout::all_used().collect();
-    let request = Request { variant, goal_index: 0, layouts: &layouts };
+    let request = Request { variant, goal_index: 0, layouts: &layouts, starts: Starts::Near };
     let scene = sample(&request, &mut stream(5, Purpose::Scene, 0)).expect("there are such scenes");
     let minds = MindParameters::of(kind).with_simulations(200);
     let settings = SimulationSettings { minds, ..SimulationSettings::default() };

@@ -7,7 +7,7 @@ use phase_model::{
     AgentId, Body, Layout, MAX_ENTITIES, Vec2,
     random::{Purpose, stream},
 };
-use phase_sampler::{Request, Variant, sample};
+use phase_sampler::{Request, Starts, Variant, sample};
 use phase_sim::SimulationSettings;
 use phase_simple::{
     AlternativeAgents, Budget, ChainSettings, Cues, Guidance, Guide, ImaginedAgents, Inference,
@@ -22,7 +22,7 @@ const COMPARED: usize = 7;
 /// The start of an event of a variant.
 fn observed(variant: Variant, steps: usize) -> ObservedEvent {
     let layouts: Vec<Layout> = Layout::all_used().collect();
-    let request = Request { variant, goal_index: 0, layouts: &layouts };
+    let request = Request { variant, goal_index: 0, layouts: &layouts, starts: Starts::Near };
     let scene = sample(&request, &mut stream(5, Purpose::Scene, 0)).expect("there are such scenes");
     let minds = MindParameters::default().with_simulations(100);
     let settings = SimulationSettings { minds, ..SimulationSettings::default() };

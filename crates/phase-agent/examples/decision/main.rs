@@ -4,7 +4,7 @@ mod drawing;
 
 use drawing::Drawing;
 use phase_agent::{
-    BeliefView, Mind, PhaseParameters,
+    BeliefView, Contest, Mind, PhaseParameters,
     objective::Objective,
     search_model::{SearchModel, SearchState},
 };
@@ -58,7 +58,13 @@ fn main() -> Result<(), Box<dyn Error>> {
     let root = particles[best.particles[0]];
 
     let last_action = Some(Action::Up);
-    let view = BeliefView { particles, observed: observation.observed, last_action, suppositions: &[] };
+    let view = BeliefView {
+        particles,
+        observed: observation.observed,
+        last_action,
+        suppositions: &[],
+        contest: Contest::default(),
+    };
     let (action, thought) = Mind::new(&scene, ME, forward.clone(), parameters)?.decide(view, &mut random)?;
 
     let costs = parameters.navigation();

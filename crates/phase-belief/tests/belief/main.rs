@@ -2,6 +2,7 @@
 
 mod common;
 mod consistency;
+mod contest;
 mod invariants;
 mod memory;
 mod place;

@@ -1,13 +1,15 @@
 //! The options of `gen-dataset` and `merge`.
 
 use crate::{
-    effort::SimulationOptions, look::LookOptions, output::Output, parallel::Jobs, shard_option::shard,
+    effort::SimulationOptions, look::LookOptions, named::named, output::Output, parallel::Jobs,
+    shard_option::shard,
 };
 use chrono::NaiveDate;
 use clap::{Args, value_parser};
 use phase_dataset::form::StimulusForm;
 use phase_model::setting::EVENTS;
 use phase_runs::gen_dataset::{Generation, steps_of};
+use phase_sampler::Starts;
 use std::path::PathBuf;
 
 /// Options of `gen-dataset`.
@@ -35,6 +37,10 @@ pub struct GenDataset {
     /// rule]
     #[arg(long, value_name = "S", value_parser = seconds)]
     pub seconds: Option<u32>,
+    /// Places of bodies at the start: near the points of a grid, or on them, as in the published recordings
+    #[arg(long, value_name = "PLACES", default_value = "near",
+        value_parser = named(Starts::ALL, Starts::name))]
+    pub starts: Starts,
     /// Look of the videos.
     #[command(flatten)]
     pub look: LookOptions,
@@ -72,6 +78,7 @@ impl From<&GenDataset> for Generation {
                 size: options.look.size,
                 palette: options.look.palette.name().into(),
                 frame_rate: options.look.frame_rate,
+                starts: options.starts,
             },
             shard: options.shard,
             effort: options.effort.effort(),

@@ -10,7 +10,7 @@ use crate::{context::Context, error::CliError};
 use options::NewScene;
 use phase_files::{atomic, told};
 use phase_model::{Awareness, Layout, Scene, layout::USED_BASES, random};
-use phase_sampler::{Request, Variant, sample};
+use phase_sampler::{Request, Starts, Variant, sample};
 use serde_json::json;
 
 /// Runs the command.
@@ -56,7 +56,7 @@ fn scene(arguments: &NewScene) -> Result<Scene, CliError> {
         let variant = variants[(arguments.seed as usize + k) % variants.len()];
         let goal_index = arguments.seed as usize % variant.goal_count();
         let mut random = random::stream(arguments.seed, random::Purpose::Scene, k as u64);
-        match sample(&Request { variant, goal_index, layouts: &layouts }, &mut random) {
+        match sample(&Request { variant, goal_index, layouts: &layouts, starts: Starts::Near }, &mut random) {
             Ok(scene) => return Ok(scene),
             Err(error) => failure = failure.or(Some(error)),
         }

@@ -2,7 +2,7 @@
 
 use phase_dataset::{composition::Composition, preset::Preset};
 use phase_model::random::{Purpose, stream};
-use phase_sampler::Stage;
+use phase_sampler::{Stage, Starts};
 
 /// Otherwise a run would end in the middle.
 #[test]
@@ -18,7 +18,7 @@ fn every_block_has_a_stage_in_its_layouts() {
             let turn = place.block * 11 % layouts.len();
             layouts.rotate_left(turn);
             let mut random = stream(5, Purpose::Stage, first as u64);
-            if Stage::sample(&parts, &layouts, &mut random).is_err() {
+            if Stage::sample(&parts, &layouts, Starts::Near, &mut random).is_err() {
                 missing.push(parts);
             }
         }

@@ -8,9 +8,9 @@ use super::{
     common::{object_of, pursued, reached, require},
     kinds,
 };
-use crate::{GoalOutcome, Manner, Track, contact, holding, manner, outcome, pursuit::Pursuit, rest};
+use crate::{Clarity, GoalOutcome, Manner, Track, contact, holding, manner, outcome, pursuit::Pursuit, rest};
 use core::ops::Range;
-use phase_model::{AgentId, Entity, EventKind, Goal, ObjectId, Relation, Scene, Sign};
+use phase_model::{AgentId, Entity, EventKind, Goal, ObjectId, Relation, Scene, Sign, State};
 
 /// Least approach of an agent to its goal (u).
 const MIN_PROGRESS: f32 = 3.0;
@@ -21,6 +21,14 @@ const MAX_STANDSTILL: usize = 24;
 /// A body that is nearer than this to where it was stays in its place (u): agents that push each other
 /// tremble.
 const MAX_STAY: f32 = 0.3;
+/// Greatest share of an event in knots. Of 50 recordings with a knot or without, 5 have more.
+const MAX_KNOTTED: f64 = 0.25;
+/// Shortest time for which a victim tries to get at its object (steps; 2 s).
+const MIN_ATTEMPT: usize = 8;
+/// Longest time for which a hinderer may, in all, carry an object to where the other wants it (steps).
+const MAX_SERVICE: usize = 6;
+/// Approach in a step that is seen as one (u).
+const SEEN_APPROACH: f32 = 0.05;
 /// Steps of which a chase has pursuit in the last part: the last fourth.
 const LASTING_PARTS: usize = 4;
 
@@ -30,6 +38,7 @@ pub(super) fn judge(
     manner: Option<Manner>,
 ) -> Result<Option<Counterfactual>, RejectionReason> {
     lively(scene, track)?;
+    untied(scene, track)?;
     let counterfactual = match scene.kind {
         EventKind::Helping => Some(helping(scene, track)?),
         EventKind::Hindering => Some(hindering(scene, track)?),
@@ -58,6 +67,12 @@ fn lively(scene: &Scene, track: &Track) -> Result<(), RejectionReason> {
     let stuck = |from: usize| from < done && stays(track, from..from + MAX_STANDSTILL + 1);
     let windows = 0..track.states.len().saturating_sub(MAX_STANDSTILL);
     require(!windows.into_iter().any(stuck), RejectionReason::Lifeless)
+}
+
+/// Agents that hold on to an object and get nowhere let go of it in time, and are not cut off there.
+fn untied(scene: &Scene, track: &Track) -> Result<(), RejectionReason> {
+    let Some(clarity) = Clarity::of(scene, track) else { return Err(RejectionReason::Lifeless) };
+    require(clarity.knotted <= MAX_KNOTTED && clarity.knot_at_end == 0, RejectionReason::Knotted)
 }
 
 /// Whether every event of at most so many steps that begins with this track is
@@ -119,9 +134,39 @@ fn hindering(scene: &Scene, track: &Track) -> Result<Counterfactual, RejectionRe
         goal => {
             pursued(scene, track, victim)?;
             require(kinds::is_in_the_way(scene, track, hinderer, goal), RejectionReason::NoContact)?;
+            require(is_defied(track, victim, goal), RejectionReason::NoContact)?;
+            require(!serves(track, hinderer, goal), RejectionReason::Misleading)?;
         }
     }
     Ok(Counterfactual { idle: hinderer, judged: victim, change: CausalEffect::Hindered, cut: true })
+}
+
+/// Whether a victim that wants an object somewhere is seen to try: it is at the object, or at the hinderer,
+/// for a while. Otherwise a viewer sees one agent carry an object, and another that minds its own business.
+fn is_defied(track: &Track, victim: AgentId, goal: Goal) -> bool {
+    let Some(object) = object_of(goal) else { return true };
+    let at = |other: Entity| contact::steps_touching(track, Entity::Agent(victim), other);
+    let mut steps = at(Entity::Object(object));
+    steps.extend(at(Entity::Agent(victim.other())));
+    steps.sort_unstable();
+    steps.dedup();
+    steps.len() >= MIN_ATTEMPT
+}
+
+/// Whether a hinderer alone carries the object to where the other wants it for longer than away from there,
+/// and for so long that it looks like help.
+fn serves(track: &Track, hinderer: AgentId, goal: Goal) -> bool {
+    let Some(object) = object_of(goal) else { return false };
+    let carries = |state: &State| state.holds(hinderer, object) && !state.holds(hinderer.other(), object);
+    let gains: Vec<f32> = track
+        .states
+        .windows(2)
+        .filter(|pair| carries(&pair[1]))
+        .map(|pair| goal.distance(&pair[0]) - goal.distance(&pair[1]))
+        .collect();
+    let closer = gains.iter().filter(|&&gain| gain > SEEN_APPROACH).count();
+    let farther = gains.iter().filter(|&&gain| gain < -SEEN_APPROACH).count();
+    closer > MAX_SERVICE && closer > farther
 }
 
 fn chasing(scene: &Scene, track: &Track) -> Result<Counterfactual, RejectionReason> {

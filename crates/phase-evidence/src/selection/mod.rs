@@ -50,6 +50,10 @@ pub enum RejectionReason {
     Interference,
     /// Nothing moves for most of the time, or adversaries stand still for long.
     Lifeless,
+    /// Both agents hold on to an object and get nowhere, for too long or at the end.
+    Knotted,
+    /// A hinderer seems to help.
+    Misleading,
     /// An agent did not come closer to its goal.
     NoProgress,
     /// The manner of helping, hindering or meeting that the variant is about was not seen.
@@ -60,7 +64,7 @@ pub enum RejectionReason {
 
 impl RejectionReason {
     /// All reasons, in the order in which they are checked.
-    pub const ALL: [Self; 16] = [
+    pub const ALL: [Self; 18] = [
         Self::TooShort,
         Self::TooLong,
         Self::Restless,
@@ -74,6 +78,8 @@ impl RejectionReason {
         Self::NoFlight,
         Self::Interference,
         Self::Lifeless,
+        Self::Knotted,
+        Self::Misleading,
         Self::NoProgress,
         Self::OtherManner,
         Self::NoEffect,
@@ -96,6 +102,8 @@ impl RejectionReason {
             Self::NoFlight => "no-flight",
             Self::Interference => "interference",
             Self::Lifeless => "lifeless",
+            Self::Knotted => "knotted",
+            Self::Misleading => "misleading",
             Self::NoProgress => "no-progress",
             Self::OtherManner => "other-manner",
             Self::NoEffect => "no-effect",

@@ -133,3 +133,26 @@ fn a_chase_lasts_to_the_end() {
     // Adversaries may not stand still for more than six seconds.
     assert_eq!(drawn(&scene, &chase(14), None), Err(RejectionReason::Lifeless));
 }
+
+/// Both at an object that is fought over from step `from` to step `to`, and agent 1 carries it off later.
+fn tug(t: usize, from: usize, to: usize) -> Move {
+    let x = 12.0 + 0.4 * t.saturating_sub(to) as f32;
+    let left =
+        if (from..to).contains(&t) { (x - 2.0, 12.0) } else { on_way(t, (6.5, 4.0), (8.0, 14.0), 0..STEPS) };
+    Move { agents: [facing(left), facing((x + 2.0, 12.0))], objects: vec![(x, 12.0)], held: [None, Some(0)] }
+}
+
+#[test]
+fn agents_that_get_nowhere_let_go_in_time() {
+    let rival = phase_model::Goal::ObjectOnLandmark {
+        object: phase_model::ObjectId::ZERO,
+        landmark: phase_model::LandmarkId::TOP_LEFT,
+        sign: phase_model::Sign::Positive,
+    };
+    let scene = scene(EventKind::Competing, [rival, THING], Attitude::Neutral);
+    let knotted =
+        |from, to| drawn(&scene, &event(|t| tug(t, from, to)), None) == Err(RejectionReason::Knotted);
+    assert!(!knotted(10, 18));
+    assert!(knotted(10, 24), "for a third of the event");
+    assert!(knotted(34, STEPS + 2), "at the end");
+}

@@ -1,6 +1,7 @@
 //! Judgements on synthetic tracks.
 
 mod certain;
+mod clarity;
 mod contact;
 mod drawn;
 mod effect;

@@ -8,6 +8,7 @@ use phase_model::{
     arena::STEP_VIDEO_SECONDS,
     setting::{EVENT_STEPS, EVENTS, Setting},
 };
+use phase_sampler::Starts;
 use phase_sim::Engine;
 
 /// Beginning of the command.
@@ -28,12 +29,13 @@ impl Generation {
     /// The options for length and look of the events, each with a space before it.
     fn form_options(&self) -> String {
         let usual = StimulusForm::default();
-        let StimulusForm { steps, size, palette, frame_rate } = &self.form;
+        let StimulusForm { steps, size, palette, frame_rate, starts } = &self.form;
         let seconds = steps.map(|steps| format!(" --seconds {}", f64::from(steps) * STEP_VIDEO_SECONDS));
         let size = (*size != usual.size).then(|| format!(" --size {size}"));
         let palette = (*palette != usual.palette).then(|| format!(" --palette {palette}"));
         let rate = (*frame_rate != usual.frame_rate).then(|| format!(" --frame-rate {frame_rate}"));
-        seconds.into_iter().chain(size).chain(palette).chain(rate).collect()
+        let starts = (*starts != usual.starts).then(|| format!(" --starts {}", starts.name()));
+        starts.into_iter().chain(seconds).chain(size).chain(palette).chain(rate).collect()
     }
 
     /// The dataset that a command line makes; `None` if [`Generation::command`] never says it that way.
@@ -66,6 +68,7 @@ impl Generation {
         } = &mut self.effort;
         match option {
             "--seconds" => self.form.steps = Some(steps_of(value)?),
+            "--starts" => self.form.starts = Starts::ALL.into_iter().find(|it| it.name() == value)?,
             "--size" => self.form.size = value.parse().ok()?,
             "--palette" => self.form.palette = value.into(),
             "--frame-rate" => self.form.frame_rate = value.parse().ok()?,
@@ -107,7 +110,7 @@ mod tests {
     fn a_command_is_followed_exactly_as_it_was_written() {
         let plain = "phase gen-dataset --preset demo --events 12 --seed 7";
         let every = "phase gen-dataset --preset demo --events 2 --seed 1 --engine forward --minds published --one-way-turns \
-                     --foresight exact --prior network --particles 4 --simulations 20 --max-steps 6 --seconds 7.5 --size 600 --palette accessible --frame-rate 60 --no-video --date-published 2026-11-23";
+                     --foresight exact --prior network --particles 4 --simulations 20 --max-steps 6 --starts grid --seconds 7.5 --size 600 --palette accessible --frame-rate 60 --no-video --date-published 2026-11-23";
         for command in [plain, every] {
             let generation = Generation::of_command(command).expect(command);
             let events = generation.events.expect("events");

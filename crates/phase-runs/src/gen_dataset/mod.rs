@@ -208,9 +208,7 @@ fn keep_finished(out: &Path, run: &Run, what: &'static str, events: usize) -> Re
 
 /// The identity of the run that makes a dataset, or a shard of it.
 pub(crate) fn run_of(whole: &DatasetDescription, shard: Option<(usize, usize)>) -> Run {
-    let StimulusForm { steps, size, palette, frame_rate } = &whole.form;
-    let form = (!whole.form.is_default())
-        .then(|| json!({ "steps": steps, "size": size, "palette": palette, "frame_rate": frame_rate }));
+    let form = (!whole.form.is_default()).then(|| json!(whole.form));
     Run::new([
         ("command", "gen-dataset".into()),
         ("preset", whole.preset.as_str().into()),

@@ -10,7 +10,7 @@ use phase_model::{
     Layout, Relation, Scene,
     random::{self, Pcg64Mcg, Purpose},
 };
-use phase_sampler::{Contrast, ContrastRequest, Part, Request, SampleError, Stage, sample};
+use phase_sampler::{Contrast, ContrastRequest, Part, Request, SampleError, Stage, Starts, sample};
 use phase_sim::SimulationSettings;
 use rand::{RngExt, seq::SliceRandom};
 use std::{
@@ -33,26 +33,32 @@ const LAYOUT_STRIDE: usize = 11;
 /// # Errors
 /// If none can be drawn.
 pub fn any_scene(preset: &Preset, seed: u64) -> Result<Scene, SampleError> {
+    let starts = Starts::Near;
     let composition = Composition::of(preset);
     let mut random = random::stream(seed, Purpose::Scene, 0);
     let slots = composition.slots(preset.events()).unwrap_or_default().max(1);
     let index = random.random_range(0..slots);
     if let Some(set) = composition.set(index) {
-        let mut scenes = contrast(&set, &preset.pool(&set.layouts), &mut random)?.scenes;
+        let mut scenes = contrast(&set, &preset.pool(&set.layouts), starts, &mut random)?.scenes;
         return Ok(scenes.swap_remove(random.random_range(0..set.stances.len())));
     }
     let EventSlot { variant, goal_index, layouts, block, .. } = composition.slot(index);
     let layouts = preset.pool(&layouts);
     let Some(place) = block else {
-        return sample(&Request { variant, goal_index, layouts: &layouts }, &mut random);
+        return sample(&Request { variant, goal_index, layouts: &layouts, starts }, &mut random);
     };
-    let stage = Stage::sample(&composition.parts(place), &layouts, &mut random)?;
+    let stage = Stage::sample(&composition.parts(place), &layouts, starts, &mut random)?;
     stage.scene(Part { variant, goal_index }, &mut random)
 }
 
-fn contrast(slot: &SetSlot, layouts: &[Layout], random: &mut Pcg64Mcg) -> Result<Contrast, SampleError> {
+fn contrast(
+    slot: &SetSlot,
+    layouts: &[Layout],
+    starts: Starts,
+    random: &mut Pcg64Mcg,
+) -> Result<Contrast, SampleError> {
     let SetSlot { stances, about, goal_index, .. } = slot;
-    let request = ContrastRequest { stances, about: *about, goal_index: *goal_index, layouts };
+    let request = ContrastRequest { stances, about: *about, goal_index: *goal_index, layouts, starts };
     Contrast::sample(&request, random)
 }
 
@@ -65,6 +71,7 @@ pub(crate) struct Scenes<'a> {
     preset: &'a Preset,
     composition: &'a Composition,
     seed: u64,
+    starts: Starts,
     settings: SimulationSettings,
     pools: BTreeMap<String, Vec<Layout>>,
     /// Stages by block and number, which all slots of a block share.
@@ -74,9 +81,10 @@ pub(crate) struct Scenes<'a> {
 impl<'a> Scenes<'a> {
     /// The scenes of a plan.
     pub(crate) fn of(plan: &'a DatasetPlan) -> Self {
-        let DatasetPlan { preset, composition, seed, settings, .. } = plan;
+        let DatasetPlan { preset, composition, seed, settings, form, .. } = plan;
         let pools = preset.layouts.keys().map(|name| (name.clone(), preset.pool(name))).collect();
-        Self { preset, composition, seed: *seed, settings: *settings, pools, stages: Mutex::default() }
+        let (seed, starts, settings) = (*seed, form.starts, *settings);
+        Self { preset, composition, seed, starts, settings, pools, stages: Mutex::default() }
     }
 
     fn pool(&self, name: &str) -> &[Layout] {
@@ -91,7 +99,8 @@ impl<'a> Scenes<'a> {
         let variant = slot.variant;
         let goal_index = slot.goal_index;
         let Some(place) = slot.block else {
-            return sample(&Request { variant, goal_index, layouts }, &mut random);
+            let request = Request { variant, goal_index, layouts, starts: self.starts };
+            return sample(&request, &mut random);
         };
         let stage = self.stage(place, layouts, number / ATTEMPTS_PER_STAGE)?;
         stage.scene(Part { variant, goal_index }, &mut random)
@@ -99,7 +108,8 @@ impl<'a> Scenes<'a> {
 
     /// The scenes of an attempt at a set, in the order of its stances.
     pub(crate) fn contrast(&self, slot: &SetSlot, seed: u64) -> Result<Contrast, SampleError> {
-        contrast(slot, self.pool(&slot.layouts), &mut random::stream(seed, Purpose::Scene, 0))
+        let mut random = random::stream(seed, Purpose::Scene, 0);
+        contrast(slot, self.pool(&slot.layouts), self.starts, &mut random)
     }
 
     /// Puts the events of a set, which are in the order of its stances, in the order of their names, which
@@ -130,7 +140,7 @@ impl<'a> Scenes<'a> {
         let mut layouts = layouts.to_vec();
         let turn = (place.block + number) * LAYOUT_STRIDE % layouts.len().max(1);
         layouts.rotate_left(turn);
-        Stage::sample(&parts, &layouts, &mut random)
+        Stage::sample(&parts, &layouts, self.starts, &mut random)
     }
 
     /// The run's settings for the attempt with this seed at a slot, with a sampled length if the preset

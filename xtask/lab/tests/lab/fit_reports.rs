@@ -24,8 +24,7 @@ fn results(rated: bool, impression: bool) -> Value {
                 json!({ "friendly": counts[0], "adversarial": counts[1], "neutral": counts[2] });
         }
         if impression {
-            let interaction =
-                json!({ "touching": 0.0, "same_object": 0.0, "near": 0.1, "shared_object": 0.0 });
+            let interaction = json!({ "near": 0.1, "shared_object": 0.0 });
             event["details"] =
                 json!({ "impression": { "happenings": happenings, "interaction": interaction } });
         }

@@ -1,0 +1,61 @@
+//! Clarity of synthetic events.
+
+use crate::{
+    selection::{THING, place, scene},
+    support::{Move, track},
+};
+use phase_evidence::{Clarity, clarity::knots};
+use phase_model::{Attitude, EventKind, Goal};
+
+/// Both agents at an object that is at x, turned by an angle.
+fn pulling(x: f32, angle: f32) -> Move {
+    Move { agents: [(x - 2.0, 12.0, angle), (x + 2.0, 12.0, 0.0)], objects: vec![(x, 12.0)], held: [None; 2] }
+}
+
+/// The same, with agent 1 away.
+fn apart(x: f32) -> Move {
+    Move { agents: [(x - 2.0, 12.0, 0.0), (24.0, 20.0, 0.0)], objects: vec![(x, 12.0)], held: [None; 2] }
+}
+
+fn clarity(moves: Vec<Move>) -> Clarity {
+    let scene = scene(EventKind::Competing, [THING, place(1, 1)], Attitude::Neutral);
+    Clarity::of(&scene, &track(moves)).expect("it has steps")
+}
+
+#[test]
+fn a_knot_is_a_second_without_progress() {
+    let scene = scene(EventKind::Competing, [THING, place(1, 1)], Attitude::Neutral);
+    let moves =
+        |both: usize| [vec![apart(14.0); 5], vec![pulling(14.0, 0.0); both], vec![apart(14.0); 11]].concat();
+    assert_eq!(knots(&scene, &track(moves(3))), []);
+    assert_eq!(knots(&scene, &track(moves(4))), vec![core::ops::Range { start: 5, end: 9 }]);
+    let found = clarity(moves(4));
+    assert!((found.knotted - 4.0 / 19.0).abs() < 1e-9 && found.knot_at_end == 0, "{found:?}");
+    // An object that is dragged on is no knot.
+    let dragged: Vec<Move> = (0..12).map(|t| pulling(10.0 + 0.4 * t as f32, 0.0)).collect();
+    assert_eq!(knots(&scene, &track(dragged)), []);
+}
+
+#[test]
+fn where_an_event_ends_is_told() {
+    let ends = clarity([vec![apart(14.0); 5], vec![pulling(14.0, 0.0); 6]].concat());
+    assert_eq!((ends.knot_at_end, ends.at_object), (6, [true, true]));
+    assert!(!ends.changes_late, "{ends:?}");
+    let Goal::ObjectOnLandmark { .. } = THING else { panic!("a goal about an object") };
+    let left: f32 = THING.distance(&track([pulling(14.0, 0.0)]).states[0]);
+    assert!((ends.remaining[0] - f64::from(left)).abs() < 1e-5, "{ends:?}");
+    let walking: Vec<Move> = (0..12).map(|t| apart(14.0 - 0.4 * t as f32)).collect();
+    assert!(clarity(walking).changes_late);
+}
+
+#[test]
+fn spinning_and_trembling_are_shares_of_time() {
+    let spin: Vec<Move> = (0..11).map(|t| pulling(14.0, 0.5 * t as f32)).collect();
+    let spun = clarity(spin);
+    // From step 4 on, when a second has passed: 7 of 10 steps.
+    assert!((spun.spinning - 0.7).abs() < 1e-9, "{spun:?}");
+    assert_eq!(clarity(vec![pulling(14.0, 0.0); 11]).spinning, 0.0);
+    let tremble: Vec<Move> = (0..11).map(|t| apart(14.0 + 0.1 * (t % 2) as f32)).collect();
+    assert!((clarity(tremble).trembling - 1.0).abs() < 1e-9);
+    assert_eq!(clarity(vec![apart(14.0); 11]).trembling, 0.0);
+}

@@ -1,0 +1,81 @@
+//! Plans of agents that contest an object, or wait for help.
+
+#[allow(dead_code)]
+mod support;
+
+use phase_model::{AgentId, Attitude, ObjectId, Size::*, Strength::*, Vec2};
+use phase_planner::Planner;
+use support::{Setup, agent_on, everything, layout, object_on};
+
+/// Agent 0 at the top left, agent 1 at the bottom right, no walls, no objects.
+fn plain() -> Setup {
+    Setup {
+        layout: layout(0, None),
+        agents: [(Small, Strong, Vec2::new(8.0, 18.0)), (Small, Strong, Vec2::new(24.0, 8.0))],
+        objects: vec![],
+        goals: [agent_on(0, 2), agent_on(1, 0)],
+        attitudes: [Attitude::Neutral; 2],
+        holds: [None; 2],
+        observed: everything(),
+    }
+}
+
+/// An agent lets go of an object that it cedes, and waits beside it; one that hinders does so by other means.
+#[test]
+fn an_object_that_is_ceded_is_not_touched() {
+    let contest = Setup {
+        agents: [(Small, Strong, Vec2::new(14.0, 16.5)), (Small, Strong, Vec2::new(18.0, 19.0))],
+        objects: vec![(Small, Vec2::new(16.0, 18.0))],
+        goals: [object_on(0, 2), object_on(0, 3)],
+        holds: [Some(0), Some(0)],
+        ..plain()
+    };
+    let ceding = |setup: &Setup, agent: usize| {
+        let who = AgentId::ALL[agent];
+        let planner = Planner::new(setup.physics(), setup.layout, who, setup.goals, setup.attitudes[agent]);
+        let plan = planner.plan_ceding(&setup.state(), setup.observed, Some(ObjectId::ZERO));
+        plan.subgoals.iter().map(ToString::to_string).collect::<Vec<_>>()
+    };
+    assert_eq!(ceding(&contest, 0), ["not Attach(agent 0, object 0)"]);
+    let left = Setup { holds: [None, Some(0)], ..contest };
+    assert!(left.words(0).contains(&"Attach(agent 0, object 0)".into()), "{:?}", left.words(0));
+    assert_eq!(ceding(&left, 0), Vec::<String>::new(), "it is beside the object");
+    let far = Setup {
+        agents: [(Small, Strong, Vec2::new(7.0, 18.0)), left.agents[1]],
+        ..Setup { objects: left.objects.clone(), ..left }
+    };
+    assert_eq!(ceding(&far, 0), ["Close(agent 0, object 0)"]);
+    let hindering = Setup {
+        goals: [object_on(0, 3).negated(), object_on(0, 3)],
+        attitudes: [Attitude::Hinder, Attitude::Neutral],
+        ..Setup { objects: far.objects.clone(), ..far }
+    };
+    assert!(hindering.words(0).iter().any(|word| word.contains("Attach")), "{:?}", hindering.words(0));
+    let other_means = ceding(&hindering, 0);
+    assert!(
+        !other_means.is_empty() && !other_means.iter().any(|word| word.contains("Attach")),
+        "{other_means:?}"
+    );
+    // Two that want the same cede nothing.
+    let together = Setup {
+        goals: [object_on(0, 3); 2],
+        attitudes: [Attitude::Neutral; 2],
+        holds: [Some(0), Some(0)],
+        ..Setup { objects: hindering.objects.clone(), ..hindering }
+    };
+    assert_eq!(ceding(&together, 0), together.words(0));
+}
+
+/// An agent that has no part in the best plan, because the helper serves it alone, tries for itself until
+/// the helper has the object in hand.
+#[test]
+fn who_is_helped_shows_what_it_wants_first() {
+    let setup = Setup {
+        agents: [(Small, Mighty, Vec2::new(20.0, 9.0)), (Small, Weak, Vec2::new(8.0, 18.0))],
+        objects: vec![(Small, Vec2::new(22.0, 8.0))],
+        goals: [object_on(0, 2); 2],
+        attitudes: [Attitude::Help, Attitude::Neutral],
+        ..plain()
+    };
+    assert_eq!(setup.words(1)[..2], ["Close(agent 1, object 0)", "Attach(agent 1, object 0)"]);
+}
