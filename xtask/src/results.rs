@@ -18,6 +18,8 @@ const FIGURES: &str = "data/results.json";
 const REPORT_TRAINING: &str = "data/report-model.training.json";
 /// The page of all results.
 const PAGE: &str = "docs/results/overview.md";
+/// The description of PHASE-Questions 1.0, as `questions` wrote it, and its page.
+const QUESTIONS: [&str; 2] = ["data/questions.json", "docs/results/questions.md"];
 /// The first page, with the most important ones between two comments.
 const README: &str = "README.md";
 /// Lines before and after its table.
@@ -78,7 +80,9 @@ pub fn documents(root: &Path) -> Result<Vec<(PathBuf, String)>, XtaskError> {
     let readme = readme.ok_or_else(|| shape(&root.join(README), "has no place for the table of results"))?;
     let pictures = page.pictures.into_iter().map(|(picture, svg)| (Path::new("docs").join(picture), svg));
     let leaderboard = leaderboard::page(root, &benchmark)?;
+    let asked: evaluation::AskedQuestions = read_json(&root.join(QUESTIONS[0]))?;
     let texts = [
+        (QUESTIONS[1].into(), evaluation::questions_page(&asked)),
         (PathBuf::from(FIGURES), figures),
         (PAGE.into(), page.text),
         (README.into(), readme),

@@ -2,7 +2,7 @@
 
 use phase_dataset::labels::goal_label;
 use phase_event::Recording;
-use phase_model::{AgentId, Entity, MAX_ENTITIES, MAX_OBJECTS, SlotId, State};
+use phase_model::{AgentId, Entity, MAX_ENTITIES, MAX_OBJECTS, Scene, SlotId, State};
 
 /// A group of features.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
@@ -88,6 +88,50 @@ impl AuditItem {
         let entities: Vec<Entity> = scene.physics().entities().collect();
         let length = vec![recording.trajectory.steps() as f64];
         let objects = vec![scene.objects.len() as f64];
+        let FirstFrame { sizes, layout, places: first, stage } = FirstFrame::of(scene);
+        let strengths = scene.agents.iter().map(|agent| f64::from(agent.strength.level())).collect();
+        let mut paths: Vec<f64> = entities
+            .iter()
+            .map(|&it| states.windows(2).map(|pair| moved(&pair[0], &pair[1], it)).sum())
+            .collect();
+        paths.resize(MAX_ENTITIES, 0.0);
+        Self {
+            classes,
+            stage,
+            features: [
+                length.clone(),
+                objects.clone(),
+                sizes.clone(),
+                layout.clone(),
+                first.clone(),
+                [length, objects, sizes, layout, first].concat(),
+                strengths,
+                places(&last, &entities),
+                paths,
+            ],
+        }
+    }
+}
+
+/// Features of a scene that its first frame shows.
+#[derive(Clone, PartialEq, Debug)]
+pub struct FirstFrame {
+    /// Radii of all bodies (u), 0 for objects that do not exist.
+    pub sizes: Vec<f64>,
+    /// Numbers of the layout and the ends of its walls (u).
+    pub layout: Vec<f64>,
+    /// Places (u), headings (rad), and distances between all bodies (u).
+    pub places: Vec<f64>,
+    /// Scenes with the same key share their bodies.
+    pub stage: Vec<u32>,
+}
+
+impl FirstFrame {
+    /// The features of a scene.
+    #[must_use]
+    pub fn of(scene: &Scene) -> Self {
+        let start = scene.initial_state();
+        let entities: Vec<Entity> = scene.physics().entities().collect();
         let mut sizes: Vec<f64> = scene.agents.iter().map(|agent| agent.size.radius().into()).collect();
         sizes.extend(scene.objects.iter().map(|object| f64::from(object.size.radius())));
         sizes.resize(MAX_ENTITIES, 0.0);
@@ -105,28 +149,9 @@ impl AuditItem {
             first.extend(entities[..k].iter().map(|&other| distance(&start, one, other)));
         }
         first.resize(2 * MAX_ENTITIES + 2 + MAX_ENTITIES * (MAX_ENTITIES - 1) / 2, 0.0);
-        let strengths = scene.agents.iter().map(|agent| f64::from(agent.strength.level())).collect();
-        let mut paths: Vec<f64> = entities
-            .iter()
-            .map(|&it| states.windows(2).map(|pair| moved(&pair[0], &pair[1], it)).sum())
-            .collect();
-        paths.resize(MAX_ENTITIES, 0.0);
         let stage = first[..2 * MAX_ENTITIES].iter().chain(&sizes).chain(&layout);
-        Self {
-            classes,
-            stage: unordered(stage.map(|&number| (number as f32).to_bits()).collect()),
-            features: [
-                length.clone(),
-                objects.clone(),
-                sizes.clone(),
-                layout.clone(),
-                first.clone(),
-                [length, objects, sizes, layout, first].concat(),
-                strengths,
-                places(&last, &entities),
-                paths,
-            ],
-        }
+        let stage = unordered(stage.map(|&number| (number as f32).to_bits()).collect());
+        Self { sizes, layout, places: first, stage }
     }
 }
 

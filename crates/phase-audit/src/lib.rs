@@ -45,5 +45,5 @@ mod folds;
 mod forest;
 mod report;
 
-pub use features::{AuditItem, Feature};
-pub use report::{Audit, AuditRow, MAX_EVENTS, Target, audit, summary, table};
+pub use features::{AuditItem, Feature, FirstFrame};
+pub use report::{Audit, AuditRow, MAX_EVENTS, Target, audit, cross_validated, summary, table};

@@ -83,7 +83,8 @@ pub fn audit(items: &[AuditItem], of: usize) -> Option<Audit> {
     if items.len() < MIN_EVENTS {
         return None;
     }
-    let folds = folds(items, FOLDS, SEED);
+    let stages: Vec<&[u32]> = items.iter().map(|item| item.stage.as_slice()).collect();
+    let folds = folds(&stages, FOLDS, SEED);
     let targets = Target::ALL.map(|target| classes(items, target));
     let cells: Vec<(Feature, usize)> =
         Feature::ALL.into_iter().flat_map(|feature| (0..targets.len()).map(move |k| (feature, k))).collect();
@@ -120,21 +121,36 @@ fn majority(classes: &[u32]) -> f64 {
     counts.values().max().copied().unwrap_or(0) as f64 / classes.len().max(1) as f64
 }
 
-/// The share of items whose class is predicted by a forest trained on the other folds. Where a forest cannot
-/// be trained, for example on a single class, the most frequent class is predicted.
+/// The share of items whose class is predicted by a forest.
 fn accuracy(items: &[AuditItem], feature: Feature, classes: &[u32], folds: &[usize]) -> f64 {
-    let row = |k: usize| &items[k].features[feature as usize];
-    let right: usize = (0..FOLDS)
-        .map(|fold| {
-            let (test, train): (Vec<usize>, Vec<usize>) = (0..items.len()).partition(|&k| folds[k] == fold);
-            let [rows, others] = [&train, &test].map(|set| set.iter().map(|&k| row(k)).collect::<Vec<_>>());
-            let known: Vec<u32> = train.iter().map(|&k| classes[k]).collect();
-            let predicted = forest::predict(&rows, &known, &others, SEED)
-                .unwrap_or_else(|_| vec![most_frequent(&known); test.len()]);
-            test.iter().zip(predicted).filter(|&(&k, class)| classes[k] == class).count()
-        })
-        .sum();
-    right as f64 / items.len() as f64
+    let rows: Vec<&Vec<f64>> = items.iter().map(|item| &item.features[feature as usize]).collect();
+    let predicted = across_folds(&rows, classes, folds);
+    predicted.iter().zip(classes).filter(|(predicted, class)| predicted == class).count() as f64
+        / items.len() as f64
+}
+
+/// The class of every row by a random forest that was trained on the other rows, in five folds. Rows with the
+/// same key in `stages` are in one fold. All slices have the same length, and all rows have one length.
+#[must_use]
+pub fn cross_validated(rows: &[Vec<f64>], classes: &[u32], stages: &[&[u32]]) -> Vec<u32> {
+    across_folds(&rows.iter().collect::<Vec<_>>(), classes, &folds(stages, FOLDS, SEED))
+}
+
+/// The class of every row by a forest trained on the other folds. Where a forest cannot be trained, for
+/// example on a single class, the most frequent class is predicted.
+fn across_folds(all: &[&Vec<f64>], classes: &[u32], folds: &[usize]) -> Vec<u32> {
+    let mut predicted = vec![0; all.len()];
+    for fold in 0..FOLDS {
+        let (test, train): (Vec<usize>, Vec<usize>) = (0..all.len()).partition(|&k| folds[k] == fold);
+        let [rows, others] = [&train, &test].map(|set| set.iter().map(|&k| all[k]).collect::<Vec<_>>());
+        let known: Vec<u32> = train.iter().map(|&k| classes[k]).collect();
+        let found = forest::predict(&rows, &known, &others, SEED)
+            .unwrap_or_else(|_| vec![most_frequent(&known); test.len()]);
+        for (k, class) in test.into_iter().zip(found) {
+            predicted[k] = class;
+        }
+    }
+    predicted
 }
 
 fn most_frequent(classes: &[u32]) -> u32 {

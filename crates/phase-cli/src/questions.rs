@@ -6,7 +6,7 @@ use phase_dataset::splits::Split;
 use phase_questions::Row;
 use phase_runs::{
     eval::methods::recognisers,
-    questions::{Asked, QuestionRun, Scored, score_file},
+    questions::{Asked, GUESS, QuestionRun, Scored, score_file},
 };
 use serde_json::json;
 use std::{collections::BTreeMap, fmt::Write as _, path::PathBuf};
@@ -34,14 +34,18 @@ pub struct Questions {
         value_parser = PossibleValuesParser::new(recognisers())
     )]
     pub certify: String,
-    /// Methods whose answers are written, too, separated by commas
+    /// Methods whose answers are written, too, separated by commas; `guess` is a random forest that is given
+    /// the words, or the words and the first frame
     #[arg(
         long,
         value_name = "METHODS",
         value_delimiter = ',',
-        value_parser = PossibleValuesParser::new(recognisers())
+        value_parser = PossibleValuesParser::new(recognisers().into_iter().chain([GUESS]))
     )]
     pub answers: Vec<String>,
+    /// Most questions of each type; others are left out at random
+    #[arg(long, value_name = "N", value_parser = value_parser!(u32).range(1..))]
+    pub per_type: Option<u32>,
     /// Side of the pictures in pixels, 64 to 2000, even
     #[arg(long, value_name = "N", default_value_t = 480, value_parser = value_parser!(u32).range(64..=2000))]
     pub size: u32,
@@ -77,6 +81,7 @@ pub fn questions(arguments: &Questions, context: &Context) -> Result<(), CliErro
         ratings: arguments.ratings.clone(),
         certify: arguments.certify.clone(),
         answers: arguments.answers.clone(),
+        per_type: arguments.per_type.map(|most| most as usize),
         side: if arguments.no_video { 0 } else { arguments.size },
         seed: arguments.seed,
         out: arguments.out.clone(),

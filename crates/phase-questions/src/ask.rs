@@ -2,6 +2,7 @@
 
 use crate::{
     Facts, Query,
+    facts::nearer,
     query::{clear_room, room_value},
 };
 use phase_evidence::{
@@ -19,6 +20,9 @@ use serde_json::{Value, json};
 const PLACE_STEPS: [usize; 2] = [20, 32];
 /// Moments at which it is asked what has been seen.
 const SEEN_STEPS: [usize; 3] = [12, 24, 36];
+/// Least number of steps for which an object has to be in view to count as seen, and for which it has to stay
+/// out of view after the moment to count as not seen.
+const LOOK_STEPS: usize = 3;
 /// Moments at which it is asked what is believed.
 const BELIEF_STEPS: [usize; 3] = [16, 28, 40];
 /// Least share of the particles for a belief.
@@ -53,6 +57,11 @@ pub(crate) fn texts<const N: usize>(values: [&str; N]) -> Vec<String> {
 
 fn rooms_but(room: RoomId) -> Vec<String> {
     RoomId::ALL.into_iter().filter(|&it| it != room).map(room_value).collect()
+}
+
+/// The rooms that share a side with a room; they are numbered in a circle.
+fn rooms_beside(room: RoomId) -> impl Iterator<Item = RoomId> {
+    RoomId::ALL.into_iter().filter(move |&it| it.index().abs_diff(room.index()) % 2 == 1)
 }
 
 /// All drafts about one event.
@@ -99,8 +108,7 @@ impl Asker<'_> {
         let scene = &self.facts.scene;
         let objects = scene.objects.len();
         let stratum = format!("{objects} objects");
-        let labels = json!({
-            "goals": scene.goals(), "alphas": scene.attitudes(), "kind": scene.kind,
+        let labels = json!({ "goals": scene.goals(), "alphas": scene.attitudes(), "kind": scene.kind,
             "rule": "goals and attitudes of the scene; the event passed the test that it shows its label",
         });
         let relation = scene.relation().name().to_owned();
@@ -117,8 +125,13 @@ impl Asker<'_> {
         }
         let kinds = EventKind::ALL.map(|kind| kind.name().to_owned()).to_vec();
         self.ask(Query::Kind, kinds, scene.kind.name().to_owned(), stratum, labels.clone());
-        let roles = texts(["helps-0", "helps-1", "hinders-0", "hinders-1"]);
+        let roles = texts(["helps-0", "helps-1", "hinders-0", "hinders-1", "neither"]);
         let attitudes = scene.attitudes();
+        // Agents with one goal or with goals that conflict help or hinder each other in a way.
+        if scene.kind == EventKind::Independent {
+            let stratum = self.nearer_to_first_object();
+            self.ask(Query::Role, roles.clone(), "neither".to_owned(), stratum, labels.clone());
+        }
         for agent in AgentId::ALL {
             let verb = match attitudes[agent] {
                 Attitude::Help => "helps",
@@ -148,13 +161,12 @@ impl Asker<'_> {
         let sizes = scene.agents.map(|agent| agent.size);
         let stratum = format!("{:?}", sizes[0].radius().total_cmp(&sizes[1].radius()));
         let forces = strengths.map(|strength| strength.max_force());
-        self.ask(
-            Query::Stronger,
-            texts(["0", "1", "equal"]),
-            stronger.to_owned(),
-            stratum,
-            json!({ "max_forces_newton": forces }),
-        );
+        // The strength has to show: a viewer compares speeds.
+        if Query::Stronger.seen(&self.facts.track).as_deref() == Some(stronger) {
+            let proof =
+                json!({ "max_forces_newton": forces, "rule": "the scene; the stronger one moves faster" });
+            self.ask(Query::Stronger, texts(["0", "1", "equal"]), stronger.to_owned(), stratum, proof);
+        }
     }
 
     /// The landmark of a goal, among those at which its subject is not already.
@@ -181,12 +193,10 @@ impl Asker<'_> {
     }
 
     fn nearer_to_first_object(&self) -> String {
-        let Some(first) = self.first().filter(|_| !self.facts.scene.objects.is_empty()) else {
-            return "no object".to_owned();
-        };
-        let object = first.position(Entity::Object(ObjectId::ZERO));
-        let distances = AgentId::ALL.map(|agent| first.position(Entity::Agent(agent)).distance(object));
-        format!("agent {} nearer to an object", usize::from(distances[1] < distances[0]))
+        match self.first().filter(|_| !self.facts.scene.objects.is_empty()) {
+            Some(first) => format!("agent {} nearer to an object", nearer(first, ObjectId::ZERO)),
+            None => "no object".to_owned(),
+        }
     }
 
     /// Rooms of entities that have changed rooms.
@@ -202,9 +212,18 @@ impl Asker<'_> {
             }
             for query in queries {
                 let Some(value) = query.seen(&self.facts.track) else { continue };
-                if value != room_value(start) {
+                // Nobody enters the opposite room first, but on the way through the centre.
+                let values = match query {
+                    Query::EntersFirst { .. } => rooms_beside(start).map(room_value).collect(),
+                    _ => rooms_but(start),
+                };
+                let when = match query {
+                    Query::RoomAt { step, .. } => format!(", step {step}"),
+                    _ => String::new(),
+                };
+                if values.contains(&value) {
                     let proof = json!({ "rule": "trajectory", "first_room": start });
-                    self.ask(query, rooms_but(start), value, format!("{what} first in room {start}"), proof);
+                    self.ask(query, values, value, format!("{what} first in room {start}{when}"), proof);
                 }
             }
         }
@@ -230,9 +249,9 @@ impl Asker<'_> {
 
     fn nearer_to(&self, object: ObjectId) -> String {
         let Some(first) = self.first() else { return String::new() };
-        let place = first.position(Entity::Object(object));
-        let distances = AgentId::ALL.map(|agent| first.position(Entity::Agent(agent)).distance(place));
-        format!("agent {} nearer", usize::from(distances[1] < distances[0]))
+        let room = room_of(first.position(Entity::Object(object)));
+        let inside = AgentId::ALL.map(|agent| room_of(first.position(Entity::Agent(agent))) == room);
+        format!("agent {} nearer, in its room {inside:?}", nearer(first, object))
     }
 
     /// Objects that agents have seen, and their beliefs, by their observations and particles. Events that are
@@ -248,6 +267,12 @@ impl Asker<'_> {
                 let observed: Vec<bool> = inside.states.iter().map(observes).collect();
                 for step in SEEN_STEPS.into_iter().filter(|&step| step < observed.len()) {
                     let seen = observed[..=step].iter().any(|&seen| seen);
+                    // Neither a glimpse nor a moment just before the first look is asked about.
+                    let looks = observed[..=step].iter().filter(|&&seen| seen).count();
+                    let soon = observed.iter().skip(step + 1).take(LOOK_STEPS).any(|&seen| seen);
+                    if seen && looks < LOOK_STEPS || !seen && soon {
+                        continue;
+                    }
                     let value = if seen { "yes" } else { "no" }.to_owned();
                     let query = Query::Seen { agent, object, step };
                     // What is seen between two frames is left out: it has to be visible in them.
@@ -256,7 +281,10 @@ impl Asker<'_> {
                     }
                     let at = observed.iter().position(|&seen| seen);
                     let proof = json!({ "rule": "observations of the agent's mind", "first_seen_step": at });
-                    asked.push((query, texts(["yes", "no"]), value, format!("step {step}"), proof));
+                    let place = |entity| room_of(inside.states[0].position(entity));
+                    let near = place(Entity::Agent(agent)) == place(entity);
+                    let stratum = format!("step {step}, {} room", if near { "same" } else { "other" });
+                    asked.push((query, texts(["yes", "no"]), value, stratum, proof));
                 }
                 for step in BELIEF_STEPS.into_iter().filter(|&step| step < observed.len()) {
                     let seen = observed[..=step].iter().any(|&seen| seen);
@@ -315,7 +343,8 @@ impl Asker<'_> {
                 let rooms = futures.ends.iter().map(|end| clear_room(end, entity));
                 let rooms: Vec<Option<RoomId>> = rooms.chain([clear_room(end, entity)]).collect();
                 let (Some(now), Some(room)) = (clear_room(state, entity), rooms[0]) else { continue };
-                if room == now || rooms.iter().any(|&it| it != Some(room)) {
+                let values: Vec<String> = rooms_beside(now).chain([now]).map(room_value).collect();
+                if !values.contains(&room_value(room)) || rooms.iter().any(|&it| it != Some(room)) {
                     continue;
                 }
                 let what = if matches!(entity, Entity::Agent(_)) { "agent" } else { "object" };
@@ -325,7 +354,7 @@ impl Asker<'_> {
                 });
                 let query = Query::Ahead { entity, step: cut, after };
                 let stratum = format!("{what} last in room {now}");
-                asked.push((query, rooms_but(now), room_value(room), stratum, proof, Some(cut)));
+                asked.push((query, values, room_value(room), stratum, proof, Some(cut)));
             }
         }
         for (query, values, value, stratum, proof, until) in asked {

@@ -6,9 +6,9 @@ use crate::{
     pairs::about_pair,
     words,
 };
-use phase_model::words::Names;
+use phase_model::{AgentId, ObjectId, words::Names};
 use rand::{Rng, RngExt, seq::SliceRandom};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Options of a question about the kind of event.
 const KIND_OPTIONS: usize = 4;
@@ -17,10 +17,19 @@ const KIND_OPTIONS: usize = 4;
 ///
 /// Within a stratum, that is among questions that look alike without motion, every answer is right equally
 /// often: questions that would make one more frequent are left out, at random. Right options stand at every
-/// place equally often.
+/// place equally often. Of each type no more than `per_type` are made.
+///
+/// No question about an event tells the answer of another one about it: where an agent is said to know of an
+/// object that it does not see, it is not asked whether it has seen it.
 #[must_use]
-pub fn questions<R: Rng>(events: &[Facts], names: &Names, random: &mut R) -> Vec<Question> {
+pub fn questions<R: Rng>(
+    events: &[Facts],
+    names: &Names,
+    per_type: Option<usize>,
+    random: &mut R,
+) -> Vec<Question> {
     let mut drafts: Vec<Draft> = events.iter().flat_map(about_event).collect();
+    without_hints(&mut drafts);
     let mut first = 0;
     while first < events.len() {
         let set = &events[first].set;
@@ -42,19 +51,35 @@ pub fn questions<R: Rng>(events: &[Facts], names: &Names, random: &mut R) -> Vec
     }
     let mut questions = Vec::new();
     for drafts in by_type.into_values() {
-        questions.extend(worded(balanced(drafts, random), names, random));
+        questions.extend(worded(balanced(drafts, per_type, random), names, random));
     }
     questions
 }
 
-/// Leaves out questions until all values are equally frequent in every stratum. Two events side by side are
-/// swapped instead.
-fn balanced<R: Rng>(drafts: Vec<Draft>, random: &mut R) -> Vec<Draft> {
+/// Leaves out questions that the words of another about the same event answer.
+fn without_hints(drafts: &mut Vec<Draft>) {
+    let told: BTreeSet<(String, AgentId, ObjectId)> = drafts
+        .iter()
+        .filter_map(|draft| match draft.query {
+            Query::Believes { agent, object, .. } => Some((draft.events[0].clone(), agent, object)),
+            _ => None,
+        })
+        .collect();
+    drafts.retain(|draft| match draft.query {
+        Query::Seen { agent, object, .. } => !told.contains(&(draft.events[0].clone(), agent, object)),
+        _ => true,
+    });
+}
+
+/// Leaves out questions until all values are equally frequent in every stratum, and no more than `most` are
+/// left. Two events side by side are swapped instead.
+fn balanced<R: Rng>(drafts: Vec<Draft>, most: Option<usize>, random: &mut R) -> Vec<Draft> {
     let mut strata: BTreeMap<String, Vec<Draft>> = BTreeMap::new();
     for draft in drafts {
         strata.entry(draft.stratum.clone()).or_default().push(draft);
     }
-    let mut kept = Vec::new();
+    // Questions of one stratum, in which every value is right once.
+    let mut rounds: Vec<Vec<Draft>> = Vec::new();
     for mut drafts in strata.into_values() {
         drafts.shuffle(random);
         if drafts[0].events.len() == 2 {
@@ -64,20 +89,23 @@ fn balanced<R: Rng>(drafts: Vec<Draft>, random: &mut R) -> Vec<Draft> {
                     draft.value = (k % 2).to_string();
                 }
             }
-            kept.extend(drafts);
-            continue;
         }
-        let count = |value: &String| drafts.iter().filter(|draft| draft.value == *value).count();
-        let least = drafts[0].values.iter().map(count).min().unwrap_or_default();
-        let mut left: BTreeMap<String, usize> =
-            drafts[0].values.iter().map(|value| (value.clone(), least)).collect();
-        kept.extend(drafts.into_iter().filter(|draft| {
-            left.get_mut(&draft.value).is_some_and(|left| {
-                let keep = *left > 0;
-                *left = left.saturating_sub(1);
-                keep
-            })
-        }));
+        let mut by_value: BTreeMap<String, Vec<Draft>> =
+            drafts[0].values.iter().map(|value| (value.clone(), Vec::new())).collect();
+        for draft in drafts {
+            by_value.entry(draft.value.clone()).or_default().push(draft);
+        }
+        let least = by_value.values().map(Vec::len).min().unwrap_or_default();
+        rounds.extend((0..least).map(|_| by_value.values_mut().filter_map(Vec::pop).collect()));
+    }
+    rounds.shuffle(random);
+    let mut left = most.unwrap_or(usize::MAX);
+    let mut kept: Vec<Draft> = Vec::new();
+    for round in rounds {
+        if round.len() <= left {
+            left -= round.len();
+            kept.extend(round);
+        }
     }
     kept.shuffle(random);
     kept

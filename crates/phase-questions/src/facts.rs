@@ -2,7 +2,7 @@
 
 use phase_event::Event;
 use phase_evidence::Track;
-use phase_model::{AGENT_COUNT, AgentId, Entity, Judgement, RoomId, Scene, State};
+use phase_model::{AGENT_COUNT, AgentId, Entity, Judgement, ObjectId, RoomId, Scene, State};
 use phase_sim::BeliefSnapshot;
 
 /// An event with everything from which answers are proved.
@@ -80,6 +80,13 @@ fn believed_room(particles: &[State], entity: Entity) -> Option<(RoomId, f64)> {
     let rooms: Vec<RoomId> = rooms.collect();
     let share = |room: RoomId| rooms.iter().filter(|&&it| it == room).count() as f64 / rooms.len() as f64;
     RoomId::ALL.into_iter().map(|room| (room, share(room))).max_by(|a, b| a.1.total_cmp(&b.1))
+}
+
+/// The number of the agent that is nearer to an object.
+pub(crate) fn nearer(state: &State, object: ObjectId) -> usize {
+    let place = state.position(Entity::Object(object));
+    let distances = AgentId::ALL.map(|agent| state.position(Entity::Agent(agent)).distance(place));
+    usize::from(distances[1] < distances[0])
 }
 
 /// A video as somebody has watched it.

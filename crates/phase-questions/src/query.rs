@@ -30,7 +30,8 @@ pub enum Query {
     Relation,
     /// The kind of the event, by its name.
     Kind,
-    /// `helps-0`, `helps-1`, `hinders-0`, `hinders-1`: what the agent of this number does to the other.
+    /// `helps-0`, `helps-1`, `hinders-0`, `hinders-1`: what the agent of this number does to the other;
+    /// `neither` if each minds its own goal.
     Role,
     /// The landmark on which an agent wants an entity.
     Goal {
@@ -275,6 +276,7 @@ impl Query {
         match *self {
             Self::Relation => relation(value).map_or(0.0, |it| judgement.relation.of(it)),
             Self::Kind => EventKind::named(value).map_or(0.0, |kind| kind_probability(judgement, kind)),
+            Self::Role if value == "neither" => judgement.relation.neutral,
             Self::Role => {
                 let (attitude, agent) = match value.rsplit_once('-') {
                     Some(("helps", agent)) => (Attitude::Help, number(agent)),

@@ -92,11 +92,13 @@ pub enum Control {
     Text,
     /// The video; one option is "none of these", and right where the right one is missing.
     NoneOfThese,
+    /// The video, and no options: the answer is in words, see [`parse_free`](crate::parse_free).
+    FreeForm,
 }
 
 impl Control {
     /// All, the video first.
-    pub const ALL: [Self; 7] = [
+    pub const ALL: [Self; 8] = [
         Self::Video,
         Self::NoVideo,
         Self::FirstFrame,
@@ -104,6 +106,7 @@ impl Control {
         Self::Reversed,
         Self::Text,
         Self::NoneOfThese,
+        Self::FreeForm,
     ];
 
     /// The name used in files.
@@ -117,6 +120,7 @@ impl Control {
             Self::Reversed => "reversed",
             Self::Text => "text",
             Self::NoneOfThese => "none-of-these",
+            Self::FreeForm => "free-form",
         }
     }
 
@@ -154,6 +158,9 @@ impl Question {
     /// The question with its options, as a model reads it.
     #[must_use]
     pub fn prompt(&self, control: Control) -> String {
+        if control == Control::FreeForm {
+            return self.text.clone();
+        }
         let (texts, _) = self.shown(control);
         let options = texts.iter().enumerate().map(|(k, text)| format!("\n{}. {text}", Self::letter(k)));
         format!("{}{}", self.text, options.collect::<String>())
@@ -196,7 +203,7 @@ pub fn parse_answer(answer: &str, options: &[&str]) -> Option<usize> {
 }
 
 /// Whether a text has these words, and not only as a part of longer ones.
-fn is_named(text: &str, words: &str) -> bool {
+pub(crate) fn is_named(text: &str, words: &str) -> bool {
     text.match_indices(words).any(|(at, found)| {
         let before = text[..at].chars().next_back();
         let after = text[at + found.len()..].chars().next();

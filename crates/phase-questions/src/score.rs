@@ -1,6 +1,7 @@
 //! The score of answers: by type, number of frames and control.
 
-use crate::{Control, FrameBudget, Question};
+use crate::{Control, FrameBudget, Question, accepted};
+use phase_model::words::Names;
 use phase_statistics::wilson_interval;
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -12,7 +13,8 @@ pub struct Answer {
     pub id: String,
     /// The material that was shown with it.
     pub control: Control,
-    /// The option that was chosen; none if the answer names none.
+    /// The option that was chosen; none if the answer names none. An index that is no option's is wrong: a
+    /// free answer can name a value that is no option.
     pub option: Option<usize>,
     /// The probability of every option, if there are any; they sum to 1.
     pub probabilities: Option<Vec<f64>>,
@@ -75,7 +77,11 @@ pub fn score(questions: &[Question], answers: &[Answer]) -> Score {
     let mut groups: BTreeMap<(Control, usize, String), Vec<(bool, f64)>> = BTreeMap::new();
     for (question, answer) in &answered {
         let right = answer.option == Some(question.answer);
-        let entry = (right, 1.0 / question.options.len().max(1) as f64);
+        let choices = match answer.control {
+            Control::FreeForm => accepted(&question.query, &Names::PAPER).len(),
+            _ => question.options.len(),
+        };
+        let entry = (right, 1.0 / choices.max(1) as f64);
         let frames = match question.frames {
             Some(FrameBudget::Frames(frames)) => format!("frames {frames}"),
             Some(FrameBudget::All) => "frames all".to_owned(),

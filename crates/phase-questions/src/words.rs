@@ -4,7 +4,7 @@ use crate::Query;
 use phase_model::{
     AgentId, Entity, EventKind, LandmarkId,
     arena::STEP_VIDEO_SECONDS,
-    words::{self, Names, corner, wants_to},
+    words::{self, Names, corner},
 };
 
 /// Facts about every video that a viewer has to know, to be shown before a question.
@@ -43,8 +43,8 @@ pub(crate) fn question(query: &Query, phrasing: usize, names: &Names) -> String 
         ]),
         Query::Role => pick([
             "Which of these is true?".into(),
-            "What does one of the agents do to the other?".into(),
-            "One agent acts for or against the other. Which, and how?".into(),
+            "Does one of the agents help or hinder the other, and which?".into(),
+            "Does an agent act for or against the other? If so, which agent, and how?".into(),
         ]),
         Query::Goal { agent: whose, subject } if subject == Entity::Agent(whose) => {
             let who = agent(whose);
@@ -135,20 +135,15 @@ pub(crate) fn question(query: &Query, phrasing: usize, names: &Names) -> String 
                 ),
             ])
         }
-        Query::Without { idle, judged } => {
-            let other = idle.other();
+        Query::Without { idle, .. } => {
             let who = agent(idle);
-            let whom = agent(other);
-            let aim = names.plain(&wants_to(judged, other));
+            let whom = agent(idle.other());
             pick([
-                format!("The {whom} wants to {aim}. How would it have fared had the {who} done nothing?"),
+                format!("How would the {whom} have fared in what it wants had the {who} done nothing?"),
                 format!(
-                    "Suppose that the {who} had not moved at all. What would that have meant for the {whom}, which \
-                     wants to {aim}?"
+                    "Suppose that the {who} had not moved at all. What would that have meant for the {whom}?"
                 ),
-                format!(
-                    "What difference does the {who} make to the {whom}, which wants to {aim}? Without it, the {whom} …"
-                ),
+                format!("What difference does the {who} make to the success of the {whom}?"),
             ])
         }
         Query::Ahead { entity, after, .. } => {
@@ -194,6 +189,7 @@ pub(crate) fn option(query: &Query, value: &str, names: &Names) -> String {
         }
         .into(),
         Query::Kind => EventKind::named(value).map_or_else(String::new, |kind| words::kind(kind).to_owned()),
+        Query::Role if value == "neither" => "neither agent helps or hinders the other".into(),
         Query::Role => {
             let (verb, agent) = value.rsplit_once('-').unwrap_or_default();
             let agent = if agent == "1" { AgentId::ONE } else { AgentId::ZERO };

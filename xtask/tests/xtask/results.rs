@@ -9,7 +9,8 @@ use std::{fs, path::Path};
 use xtask::results::documents;
 
 /// Sources of the documents, beside the leaderboard.
-const SOURCES: [&str; 5] = [
+const SOURCES: [&str; 6] = [
+    "data/questions.json",
     "data/report-model.training.json",
     "data/results.json",
     "docs/results/overview.md",

@@ -32,7 +32,7 @@ fn questions_are_asked_and_answers_scored() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path();
     datasets(path);
-    let ask = ["questions", "twelve", "pairs", "--size", "64", "--answers", "cue", "--out"];
+    let ask = ["questions", "twelve", "pairs", "--size", "64", "--answers", "cue,guess", "--out"];
     succeed(path, &[&ask[..], &["asked"]].concat());
     succeed(path, &[&ask[..], &["again", "--jobs", "1"]].concat());
     assert!(tree(&path.join("asked")) == tree(&path.join("again")), "the same events give the same bytes");
@@ -50,7 +50,12 @@ fn questions_are_asked_and_answers_scored() {
             (1..texts.len()).all(|k| !texts[..k].contains(&texts[k]) && !texts[k].is_empty()),
             "{texts:?}"
         );
-        assert!(question["proof"]["rule"].is_string() || question["proof"]["max_forces_newton"].is_array());
+        assert!(question["proof"]["rule"].is_string(), "{question}");
+        let words = question["text"].as_str().expect("words");
+        assert!(
+            !words.contains(", which wants to"),
+            "no question names a goal that another asks for: {words}"
+        );
         let video = path.join(format!("asked/videos/{}.mp4", question["video"].as_str().expect("a name")));
         assert!(video.is_file(), "{}", video.display());
         let stratum = format!("{} {}", question["query"]["type"], question["stratum"]);
@@ -62,6 +67,21 @@ fn questions_are_asked_and_answers_scored() {
         let slack = if stratum.contains("pair-") { 1 } else { 0 };
         assert!(most.zip(least).is_some_and(|(most, least)| most - least <= slack), "{stratum}: {counts:?}");
     }
+    // A cap takes whole rounds of a stratum, so that its answers stay equally frequent.
+    let capped = ["questions", "twelve", "pairs", "--no-video", "--per-type", "7", "--out", "capped"];
+    succeed(path, &capped);
+    let mut left: BTreeMap<String, BTreeMap<String, usize>> = BTreeMap::new();
+    for question in lines(&path.join("capped/questions.jsonl")) {
+        let value = &question["options"][question["answer"].as_u64().unwrap_or_default() as usize]["value"];
+        *left
+            .entry(question["query"]["type"].to_string())
+            .or_default()
+            .entry(value.to_string())
+            .or_default() += 1;
+    }
+    assert!(left.values().all(|counts| counts.values().sum::<usize>() <= 7), "{left:?}");
+    let seen: Vec<usize> = left["\"seen\""].values().copied().collect();
+    assert_eq!(seen, [3, 3], "six of the most frequent type, three of each answer");
     // Everybody who knows the answers is right, and no answer is right by its letter.
     let letter = |question: &Value| char::from(b'A' + question["answer"].as_u64().unwrap_or_default() as u8);
     let answers = |of: &dyn Fn(&Value) -> String| {
@@ -78,16 +98,21 @@ fn questions_are_asked_and_answers_scored() {
         format!("I think it is {}.", text.as_str().unwrap_or_default())
     };
     assert!(all(&answers(&text_of)) > 0.95, "the words of the right option count, too");
+    let rooms = questions.iter().filter(|it| it["query"]["type"] == "end-room");
+    let free = |it: &Value| {
+        let words = text_of(it);
+        json!({ "id": it["id"], "answer": words, "control": "free-form" }).to_string() + "\n"
+    };
+    fs::write(path.join("free.jsonl"), rooms.map(free).collect::<String>()).expect("written");
+    let text = succeed(path, &["score", "free.jsonl", "--questions", "asked", "--json"]);
+    let scored: Value = serde_json::from_str(&text).expect("JSON");
+    assert_eq!((all(&scored), &scored["score"]["rows"][0]["chance"]), (1.0, &json!(0.25)));
     assert_eq!(all(&answers(&|_| "I do not know".to_owned())), 0.0);
     assert!(all(&answers(&|_| "A".to_owned())) < 0.6);
-    // The guesses are the most frequent values, which balance makes as good as chance.
+    // A guess answers every question without the video, and with the first frame.
     let guessed = succeed(path, &["score", "asked/answers/guess.jsonl", "--questions", "asked", "--json"]);
     let guessed: Value = serde_json::from_str(&guessed).expect("JSON");
-    for row in guessed["score"]["rows"].as_array().expect("rows") {
-        if row["group"] == "relation" {
-            assert_eq!(row["accuracy"], row["chance"], "{row}");
-        }
-    }
+    assert_eq!(guessed["answers"].as_u64(), Some(2 * questions.len() as u64));
     refused(path, &questions);
     forms(path, questions.len());
 }
@@ -106,6 +131,11 @@ fn refused(path: &Path, questions: &[Value]) {
     assert!(score("").contains("has no answers"));
     let control = format!("{{\"id\": \"{id}\", \"answer\": \"A\", \"control\": \"sound\"}}");
     assert!(score(&control).contains("control must be one of"));
+    let role = questions.iter().find(|it| it["query"]["type"] == "without").map(|it| it["id"].clone());
+    if let Some(id) = role {
+        let free = score(&json!({ "id": id, "answer": "worse", "control": "free-form" }).to_string());
+        assert!(free.contains("asked with options only"), "{free}");
+    }
     let shares = format!("{{\"id\": \"{id}\", \"answer\": \"A\", \"probabilities\": [0.5]}}");
     assert!(score(&shares).contains("probabilities must be"));
     refuse(path, &["questions", "nowhere", "--out", "x"]);

@@ -3,11 +3,13 @@
 mod benchmark;
 mod goals;
 mod leaderboard;
+mod questions;
 mod trajectories;
 
 pub use benchmark::{Page, benchmark, figures, overview, page, to_lines};
 pub use goals::goals;
 pub use leaderboard::{LEADERBOARD_FORMAT, Measures, Score, Scores, Source, leaderboard};
+pub use questions::{AskedQuestions, TypeScore, questions_page};
 pub use trajectories::trajectories;
 
 use phase_document::{document::Block, plot::bars};

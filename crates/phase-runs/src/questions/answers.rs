@@ -1,6 +1,6 @@
 //! Answers of the methods of the benchmark, and guesses without motion.
 
-use super::line;
+use super::{GUESS, guess::guesses, line};
 use crate::{error::RunError, laboratory::create};
 use core::ops::ControlFlow;
 use phase_event::{ObservedEvent, Recogniser};
@@ -10,13 +10,13 @@ use phase_model::{
     Judgement,
     random::{Purpose, stream},
 };
-use phase_questions::{BUDGETS, Control, Facts, FrameBudget, Question, Watched, guesses, reordered, sampled};
+use phase_questions::{BUDGETS, Control, Facts, FrameBudget, Question, Watched, reordered, sampled};
 use rand::{RngExt, seq::SliceRandom};
 use serde_json::{Value, json};
 use std::{collections::BTreeMap, path::Path};
 
 /// Folder of the answers.
-const FOLDER: &str = "answers";
+pub(super) const FOLDER: &str = "answers";
 
 /// Judgements of a method about what is shown, by budget and, after them, of shuffled and reversed frames.
 pub(super) type Judged = Vec<Option<Judgement>>;
@@ -162,21 +162,30 @@ impl Watcher<'_> {
     }
 }
 
-/// Writes guesses from the words alone and from the first frame, and random answers.
-pub(super) fn write_guesses(out: &Path, all: &[Question], seed: u64) -> Result<Value, RunError> {
+/// Writes guesses from the words alone and from the first frame.
+pub(super) fn write_guesses(
+    out: &Path,
+    all: &[Question],
+    facts: &BTreeMap<&str, &Facts>,
+) -> Result<Value, RunError> {
     let mut lines = String::new();
     for control in [Control::NoVideo, Control::FirstFrame] {
-        for (question, option) in all.iter().zip(guesses(all, control)) {
+        for (question, option) in all.iter().zip(guesses(all, facts, control)) {
             lines += &answer(question, control, option)?;
         }
     }
-    write_lines(out, "guess", &lines)?;
+    write_lines(out, GUESS, &lines)?;
+    Ok(json!({ "method": GUESS, "left_to_chance": 0 }))
+}
+
+/// Writes random answers.
+pub(super) fn write_chance(out: &Path, all: &[Question], seed: u64) -> Result<Value, RunError> {
     let mut lines = String::new();
     for question in all {
         lines += &answer(question, Control::Video, by_chance(question, seed))?;
     }
     write_lines(out, "chance", &lines)?;
-    Ok(json!({ "method": "guess" }))
+    Ok(json!({ "method": "chance", "left_to_chance": all.len() }))
 }
 
 fn write_lines(out: &Path, name: &str, lines: &str) -> Result<(), RunError> {

@@ -4,6 +4,7 @@
 mod answers;
 mod facts;
 mod forms;
+mod guess;
 mod scoring;
 mod videos;
 
@@ -45,6 +46,8 @@ pub const INDEX_FILE: &str = "questions.json";
 pub const QUESTIONS_FILE: &str = "questions.jsonl";
 /// The value of the field `format` of the description.
 const FORMAT: &str = "phase-questions/1";
+/// The name of the method that guesses without motion.
+pub const GUESS: &str = "guess";
 
 /// A run that asks questions about events.
 #[derive(Clone, Debug)]
@@ -57,8 +60,10 @@ pub struct QuestionRun {
     pub ratings: Option<PathBuf>,
     /// The method that certifies numbers of frames for questions about relations and goals.
     pub certify: String,
-    /// Methods whose answers are written, too.
+    /// Methods whose answers are written, too; [`GUESS`] is one.
     pub answers: Vec<String>,
+    /// Most questions of each type.
+    pub per_type: Option<usize>,
     /// Side of the pictures (pixels), even; no videos for 0.
     pub side: u32,
     /// Random seed of words and orders.
@@ -100,6 +105,7 @@ impl QuestionRun {
             ("ratings", self.ratings_digest()?),
             ("certify", self.certify.as_str().into()),
             ("answers", json!(self.answers)),
+            ("per_type", json!(self.per_type)),
             ("side", self.side.into()),
             ("seed", self.seed.into()),
         ]);
@@ -114,7 +120,7 @@ impl QuestionRun {
         };
         let facts = self.facts(&sources, listener)?;
         let mut random = stream(self.seed, Purpose::Evaluation, 0);
-        let mut all = phase_questions::questions(&facts, &Names::PAPER, &mut random);
+        let mut all = phase_questions::questions(&facts, &Names::PAPER, self.per_type, &mut random);
         if all.is_empty() {
             return Err(unusable(
                 &self.events[0],
@@ -145,6 +151,10 @@ impl QuestionRun {
         forms::write(&self.out, &all, &by_id, self.side > 0, self.seed)?;
         let mut rows = Vec::new();
         for method in &self.answers {
+            if method == GUESS {
+                rows.push(answers::write_guesses(&self.out, &all, &by_id)?);
+                continue;
+            }
             let watcher = if *method == self.certify {
                 None
             } else {
@@ -153,11 +163,26 @@ impl QuestionRun {
             let watcher = watcher.as_ref().unwrap_or(&certifying);
             rows.push(answers::write(&self.out, method, &all, watcher, self.seed)?);
         }
-        rows.push(answers::write_guesses(&self.out, &all, self.seed)?);
+        rows.push(answers::write_chance(&self.out, &all, self.seed)?);
+        let mut scores = Vec::new();
+        for row in &rows {
+            let method = row["method"].as_str().unwrap_or_default();
+            let file = self.out.join(answers::FOLDER).join(format!("{method}.jsonl"));
+            for row in score_file(&file, &self.out)?.score.rows {
+                if !row.group.starts_with("frames ") {
+                    let it = row.accuracy;
+                    scores.push(json!({
+                        "method": method, "control": row.control, "type": row.group, "right": it.right,
+                        "of": it.of, "chance": it.chance,
+                    }));
+                }
+            }
+        }
         let count: BTreeMap<&str, usize> = types.iter().copied().collect();
         let index = json!({
             "format": FORMAT, "run": run, "questions": all.len(), "types": count, "videos": names.len(),
             "certified_by": self.certify, "answers": rows,
+            "sha256": phase_files::checksum::sha256_hex(lines.as_bytes()), "scores": scores,
         });
         atomic::write_json(&self.out.join(INDEX_FILE), &index)?;
         folder.finish()?;

@@ -3,7 +3,8 @@
 use super::QUESTIONS_FILE;
 use crate::{error::RunError, laboratory::unusable};
 use phase_files::{FileError, Problem, json, regular};
-use phase_questions::{Answer, Control, Question, Score, parse_answer, score};
+use phase_model::words::Names;
+use phase_questions::{Answer, Control, Question, Score, accepted, parse_answer, parse_free, score};
 use serde::Deserialize;
 use std::{
     collections::{BTreeMap, BTreeSet},
@@ -86,7 +87,18 @@ pub fn score_file(answers: &Path, benchmark: &Path) -> Result<Scored, RunError> 
                 )));
             }
         }
-        all.push(Answer { id, control, option: parse_answer(&answer, &options), probabilities });
+        let option = if control == Control::FreeForm {
+            if accepted(&question.query, &Names::PAPER).is_empty() {
+                let name = question.query.type_name();
+                return Err(wrong(&format!("questions of the type {name} are asked with options only")));
+            }
+            let value = parse_free(&answer, &question.query, &Names::PAPER);
+            let place = |value| question.options.iter().position(|option| option.value == value);
+            value.map(|value| place(value).unwrap_or(options.len()))
+        } else {
+            parse_answer(&answer, &options)
+        };
+        all.push(Answer { id, control, option, probabilities });
     }
     if all.is_empty() {
         return Err(unusable(answers, "has no answers"));

@@ -49,7 +49,8 @@ pub(super) fn write(
     for (name, text) in FIXED {
         atomic::write(&out.join(name), text.as_bytes())?;
     }
-    for control in Control::ALL {
+    // A task scores options; free answers are scored by `phase score`.
+    for control in Control::ALL.into_iter().filter(|control| *control != Control::FreeForm) {
         let task = task_name(control);
         let text = format!(
             "include: _default_template_yaml\ntask: {task}\nlmms_eval_specific_kwargs:\n  default:\n    control: {}\n    \
@@ -118,6 +119,7 @@ fn row(question: &Question, texts: &BTreeMap<String, String>, facts: &BTreeMap<&
         "question": question.text,
         "options": options,
         "options_none": without,
+        "accepted": accepted(question),
         "answer": Question::letter(answer).to_string(),
         "answer_index": answer,
         "frames": question.frames.map_or(-1, |frames| frames.number() as i64),
@@ -127,6 +129,13 @@ fn row(question: &Question, texts: &BTreeMap<String, String>, facts: &BTreeMap<&
         "introduction": INTRODUCTION,
         "text": texts.get(&question.video),
     })
+}
+
+/// Words that name the right option where no options are shown.
+fn accepted(question: &Question) -> Vec<String> {
+    let right = &question.options[question.answer].value;
+    let values = phase_questions::accepted(&question.query, &Names::PAPER).into_iter();
+    values.filter(|it| it.value == *right).flat_map(|it| it.anywhere.into_iter().chain(it.alone)).collect()
 }
 
 /// The table of VLMEvalKit.
@@ -220,7 +229,7 @@ fn parquet(
         TableColumn { name, values: TableValues::TextLists(rows.iter().map(cell).collect()) }
     };
     let number = |row: &Value, name: &str| row[name].as_i64().unwrap_or_default();
-    let letters: Vec<String> = (0..4).map(|k| Question::letter(k).to_string()).collect();
+    let letters: Vec<String> = (0..5).map(|k| Question::letter(k).to_string()).collect();
     let tasks = Query::TYPES.map(str::to_owned).to_vec();
     let task = |question: &&Question| {
         let name = question.query.type_name();
@@ -237,6 +246,7 @@ fn parquet(
         text("question"),
         list("options"),
         list("options_none"),
+        list("accepted"),
         text("answer"),
         TableColumn { name: "answer_index", values: TableValues::Classes(letters, answers) },
         TableColumn { name: "frames", values: TableValues::Numbers(frames) },
