@@ -43,8 +43,8 @@ pub struct Questions {
         value_parser = PossibleValuesParser::new(recognisers().into_iter().chain([GUESS]))
     )]
     pub answers: Vec<String>,
-    /// Most questions of each type; others are left out at random
-    #[arg(long, value_name = "N", value_parser = value_parser!(u32).range(1..))]
+    /// Most questions of each type, 1 to 1000000; others are left out at random
+    #[arg(long, value_name = "N", value_parser = value_parser!(u32).range(1..=1_000_000))]
     pub per_type: Option<u32>,
     /// Side of the pictures in pixels, 64 to 2000, even
     #[arg(long, value_name = "N", default_value_t = 480, value_parser = value_parser!(u32).range(64..=2000))]

@@ -29,6 +29,7 @@ mod serve;
 mod sets;
 mod shell;
 mod simulate;
+mod stats;
 mod study;
 mod support;
 mod threads;

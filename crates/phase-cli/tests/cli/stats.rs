@@ -1,0 +1,41 @@
+//! Figures of events.
+
+use crate::support::{recording, refuse, succeed, write_events};
+use serde_json::{Value, json};
+use std::fs;
+
+#[test]
+fn clarity_is_told_by_kind_and_beside_it_what_people_would_report() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path();
+    write_events(&path.join("events.json"), &[recording("first"), recording("second")]);
+    let plain = succeed(path, &["stats", "events.json", "--out", "figures"]);
+    assert!(plain.contains("| clarity: mean | events | knotted_share |"), "{plain}");
+    assert!(!plain.contains("label reported"));
+    let table = fs::read_to_string(path.join("figures/motion.csv")).expect("a table");
+    assert!(table.lines().next().is_some_and(|head| head.ends_with(",changes_late")), "{table}");
+
+    succeed(path, &["eval", "goals", "--method", "cue", "--events", "events.json", "--out", "cue"]);
+    let stats = ["stats", "events.json", "--results", "cue/results.json"];
+    let refused = refuse(path, &stats);
+    assert!(
+        refused.contains("--results cue/results.json: none of its events has predicted reports"),
+        "{refused}"
+    );
+
+    let text = fs::read_to_string(path.join("cue/results.json")).expect("results");
+    let mut results: Value = serde_json::from_str(&text).expect("JSON");
+    for (event, neutral) in results["events"].as_array_mut().expect("events").iter_mut().zip([0.75, 0.25]) {
+        event["reported"] = json!({ "friendly": 1.0 - neutral, "adversarial": 0.0, "neutral": neutral });
+    }
+    fs::write(path.join("cue/results.json"), results.to_string()).expect("written");
+    let told = succeed(path, &stats);
+    // Both are independent, so that neutral is their label.
+    assert!(
+        told.lines().any(|row| row.starts_with("| independent |") && row.ends_with(" 0.50 | 1 of 2 |")),
+        "{told}"
+    );
+    assert!(
+        refuse(path, &["stats", "events.json", "--results", "events.json"]).contains("phase-eval-goals/1")
+    );
+}
