@@ -3,8 +3,8 @@
 use phase_model::{AGENT_COUNT, AgentId, Entity, ObjectId, Vec2};
 use phase_perception::Observation;
 
-/// Distance (u) that an object has to leave its place by for two that hold it to get on: a contest in which
-/// both only turn about it is a standstill. Agents are 1.6 to 3.2 u wide.
+/// Displacement (u) of an object that both agents hold which counts as progress. Less is a standstill, even if
+/// both turn about it. Agents are 1.6 to 3.2 u wide.
 const PROGRESS: f32 = 1.0;
 
 /// A contest for an object, as one of the two agents remembers it: for how long both have held it and nothing
@@ -19,7 +19,7 @@ pub struct Contest {
     object: Option<ObjectId>,
     /// The agent that held it first.
     first: AgentId,
-    /// The object's place (u) when it last got on.
+    /// The object's place (u) at its last progress.
     place: Vec2,
     standstill: u16,
     left_for: u16,

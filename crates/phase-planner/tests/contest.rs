@@ -1,24 +1,10 @@
 //! Plans of agents that contest an object, or wait for help.
 
-#[allow(dead_code)]
 mod support;
 
 use phase_model::{AgentId, Attitude, ObjectId, Size::*, Strength::*, Vec2};
 use phase_planner::Planner;
-use support::{Setup, agent_on, everything, layout, object_on};
-
-/// Agent 0 at the top left, agent 1 at the bottom right, no walls, no objects.
-fn plain() -> Setup {
-    Setup {
-        layout: layout(0, None),
-        agents: [(Small, Strong, Vec2::new(8.0, 18.0)), (Small, Strong, Vec2::new(24.0, 8.0))],
-        objects: vec![],
-        goals: [agent_on(0, 2), agent_on(1, 0)],
-        attitudes: [Attitude::Neutral; 2],
-        holds: [None; 2],
-        observed: everything(),
-    }
-}
+use support::{Setup, object_on, plain};
 
 /// An agent lets go of an object that it cedes, and waits beside it; one that hinders does so by other means.
 #[test]

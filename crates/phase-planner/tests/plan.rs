@@ -2,21 +2,13 @@
 
 mod support;
 
-use phase_model::{AgentId, Attitude, LandmarkId, Size::*, Strength::*, Subgoal, Vec2};
+use phase_model::{AgentId, Attitude, Goal, LandmarkId, Sign, Size::*, Strength::*, Subgoal, Vec2};
 use phase_planner::{Planner, PlannerParameters};
-use support::{Setup, agent_on, approach, everything, layout, object_on};
+use support::{Setup, agent_on, everything, layout, object_on, plain};
 
-/// Agent 0 at the top left, agent 1 at the bottom right, no walls, no objects.
-fn plain() -> Setup {
-    Setup {
-        layout: layout(0, None),
-        agents: [(Small, Strong, Vec2::new(8.0, 18.0)), (Small, Strong, Vec2::new(24.0, 8.0))],
-        objects: vec![],
-        goals: [agent_on(0, 2), agent_on(1, 0)],
-        attitudes: [Attitude::Neutral; 2],
-        holds: [None; 2],
-        observed: everything(),
-    }
+/// The goal of agent 0 to touch agent 1.
+fn approach() -> Goal {
+    Goal::Touch { agent: AgentId::ZERO, other: AgentId::ONE, sign: Sign::Positive }
 }
 
 #[test]

@@ -276,7 +276,7 @@ mod tests {
         (inference, PLENTY - budget.decisions.unwrap_or(PLENTY))
     }
 
-    /// What is not looked at would not change the answer, and is a good part of all.
+    /// Many decisions would not change the answer, and are not simulated.
     #[test]
     fn decisions_that_change_nothing_are_not_simulated() {
         let mut agents = InferenceSettings::default().agents;

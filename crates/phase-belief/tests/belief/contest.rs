@@ -23,7 +23,7 @@ fn state(x: f32, held: [bool; 2]) -> State {
     state
 }
 
-/// What each agent leaves to the other after these states.
+/// Whether each agent cedes the object to the other after these states.
 fn ceded(states: &[State]) -> [bool; 2] {
     let body = AgentBody { radius: 0.8, max_force: 450.0 };
     let physics =

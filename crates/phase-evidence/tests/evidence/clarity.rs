@@ -12,7 +12,7 @@ fn pulling(x: f32, angle: f32) -> Move {
     Move { agents: [(x - 2.0, 12.0, angle), (x + 2.0, 12.0, 0.0)], objects: vec![(x, 12.0)], held: [None; 2] }
 }
 
-/// The same, with agent 1 away.
+/// Agent 0 at an object that is at x, and agent 1 far away.
 fn apart(x: f32) -> Move {
     Move { agents: [(x - 2.0, 12.0, 0.0), (24.0, 20.0, 0.0)], objects: vec![(x, 12.0)], held: [None; 2] }
 }

@@ -2,9 +2,22 @@
 
 use phase_model::{
     AgentId, Attitude, Body, BodySet, Flip, Goal, LandmarkId, Layout, ObjectId, PhysicsConfig, Sign, Size,
-    State, Strength, Vec2, physics::AgentBody,
+    Size::Small, State, Strength, Strength::Strong, Vec2, physics::AgentBody,
 };
 use phase_planner::{Plan, Planner};
+
+/// Agent 0 at the top left, agent 1 at the bottom right, no walls, no objects.
+pub(crate) fn plain() -> Setup {
+    Setup {
+        layout: layout(0, None),
+        agents: [(Small, Strong, Vec2::new(8.0, 18.0)), (Small, Strong, Vec2::new(24.0, 8.0))],
+        objects: vec![],
+        goals: [agent_on(0, 2), agent_on(1, 0)],
+        attitudes: [Attitude::Neutral; 2],
+        holds: [None; 2],
+        observed: everything(),
+    }
+}
 
 /// A description of a situation: layout, bodies, goals, attitudes.
 pub(crate) struct Setup {
@@ -82,10 +95,6 @@ pub(crate) fn object_on(object: u8, landmark: u8) -> Goal {
         landmark: LandmarkId::ALL[usize::from(landmark)],
         sign: Sign::Positive,
     }
-}
-
-pub(crate) fn approach() -> Goal {
-    Goal::Touch { agent: AgentId::ZERO, other: AgentId::ONE, sign: Sign::Positive }
 }
 
 /// All entities.
