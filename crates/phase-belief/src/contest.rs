@@ -3,8 +3,8 @@
 use phase_model::{AGENT_COUNT, AgentId, Entity, ObjectId, Vec2};
 use phase_perception::Observation;
 
-/// Displacement (u) of an object that both agents hold which counts as progress. Less is a standstill, even if
-/// both turn about it. Agents are 1.6 to 3.2 u wide.
+/// Displacement (u) of an object held by both agents that counts as progress. Less is a standstill, even
+/// if both turn about the object. Agents are 2.4 to 4.8 u wide.
 const PROGRESS: f32 = 1.0;
 
 /// A contest for an object, as one of the two agents remembers it: for how long both have held it and nothing
