@@ -5,18 +5,21 @@
     python3 data/import_socialgnn.py Videos_Test_humanratings recordings.json \\
         --raters responses_genset --ratings ratings.json
     python3 data/import_socialgnn.py Videos_humanratings recordings.json --set main \\
+        --counted human_rating_labels_all --ratings ratings.json \\
         --predictions Outputs/Predictions/*_SocialGNN_E --predicted socialgnn.json
 
-All inputs are in the repository Isik-lab/SocialGNN (MIT licence): the file PHASE/Videos_Test_humanratings, the
-folder PHASE/Human_Experiment_Files/responses_genset, and what networks answered, in the folder Outputs/Predictions. docs/reference/formats/overview.md describes the results. Python 3.9 or later and
-numpy are needed.
+All inputs are in the repository Isik-lab/SocialGNN (MIT licence): the files PHASE/Videos_Test_humanratings and
+PHASE/Videos_humanratings; in PHASE/Human_Experiment_Files the raters' sheets (responses_genset, responses) and the
+answers counted (human_rating_labels_all_genset, human_rating_labels_all); what networks answered, in the folder
+Outputs/Predictions. docs/reference/formats/overview.md describes the results. Python 3.9 or later and numpy are needed.
 
 What is read. The file is a pickle: a list whose entry k becomes the event `phase-test-k`, or with `--set main`, for the
 400 other recordings (PHASE/Videos_humanratings), `phase-main-k`; empty entries and catch trials (names that end in `_mm`)
 are skipped.
 An entry is a record with its `name`; recordings.py beside this file says what names and records mean, and what is mended.
 The pickle has no actions.
-A file of answers has two pickles: the right relations by the names of videos, which are not read, and a network's. Each
+Counted answers are a table of pandas, which is read without pandas: a count for each relation by the names of videos.
+A file of a network's answers has two pickles: the right relations by the names of videos, which are not read, and a network's. Each
 file counts as one rater of phase-ratings/1.
 
 The pickle is read in a process of its own, with limits on memory and time; only numpy arrays and plain data are
@@ -28,7 +31,7 @@ import os
 import re
 import sys
 
-from importer import (Failure, Unusable, answer, ask, content_of, contents_of, import_numpy, is_reading, main_of,
+from importer import (Failure, Unusable, answer, ask, column_of, content_of, contents_of, import_numpy, is_reading, main_of,
                       open_regular, read_json, save, shown, tell)
 from recordings import RELATIONS, add_angles_option, converted, text
 
@@ -37,18 +40,26 @@ LARGEST_FILE_BYTES = 64 << 20
 MOST_ENTRIES = 1000
 
 LARGEST_SHEET_BYTES = 1 << 20
+MOST_RATERS = 1000
 ANSWERS_PER_SHEET = 23
-# Catch trials by layout, and the only right answer to each.
+# Catch trials of each set by layout, and the only right answer to each.
 CATCH_ENDING = "_mm"
-CATCH_TRIALS = {4: "adversarial", 12: "friendly", 0: "neutral"}
+CATCH_TRIALS = {
+    "test": {"4": "adversarial", "12": "friendly", "0": "neutral"},
+    "main": {"12.1": "adversarial", "13.2": "friendly", "4": "neutral"},
+}
 
 
 # Reading.
 
-def entries_of(path):
+def whole(path):
     if import_numpy() is None:
         raise Failure("numpy is needed to read the recordings")
-    content = content_of(path, LARGEST_FILE_BYTES)
+    return content_of(path, LARGEST_FILE_BYTES)
+
+
+def entries_of(path):
+    content = whole(path)
     if type(content) is not list or not 0 < len(content) <= MOST_ENTRIES:
         raise Unusable(f"must hold a list of 1 to {MOST_ENTRIES} entries")
     return content
@@ -91,12 +102,41 @@ def predictions_of(path):
     return answers
 
 
+def counts_of(path):
+    """How many people gave each answer, by the names of videos."""
+    table = whole(path)
+    counted = column_of(table, "videos", "relationship", dict)
+    result = {}
+    for name, counts in counted:
+        name = text(name, "the name of a video")
+        if name in result:
+            raise Unusable(f"has the video {shown(name)} twice")
+        known = all(relation in RELATIONS and type(count) is int and 0 <= count <= MOST_RATERS
+                    for relation, count in counts.items())
+        if not known:
+            raise Unusable(f"video {shown(name)}: must count {', '.join(RELATIONS)}, each 0 to {MOST_RATERS}, "
+                           f"not {shown(dict(counts))}")
+        result[name] = {relation: counts.get(relation, 0) for relation in RELATIONS}
+    return result
+
+
+def read_counted(path, names):
+    """A phase-ratings/1 file's content, and a word about it."""
+    counts = {}
+    for video, given in ask(__file__, path, "counts").items():
+        for event_id in names.get(video, []):
+            counts[event_id] = given
+    if not counts:
+        raise Unusable(f"{path}: has no answers about these recordings")
+    return {"format": "phase-ratings/1", "ratings": {name: counts[name] for name in sorted(counts)}}, "as counted"
+
+
 def count_predictions(paths, names):
     """A phase-ratings/1 file's content, in which each file is a rater."""
     counts = {}
     for path in paths:
         known = 0
-        for video, relation in ask(__file__, path).items():
+        for video, relation in ask(__file__, path, "predictions").items():
             for event_id in names.get(video, []):
                 counts.setdefault(event_id, dict.fromkeys(RELATIONS, 0))[relation] += 1
                 known += 1
@@ -139,22 +179,22 @@ def read_sheet(path):
 
 
 def is_complete(answers, which):
-    """Whether a sheet has all answers, each to a video and one of the three. Sheets about the test set have a known
-    number; `[]` stands there for a recording that is not in the file. Other sheets must have an answer in every line."""
-    if len(answers) != ANSWERS_PER_SHEET if which == "test" else not all(answers):
+    """Whether a sheet has all answers, each to a video and one of the three. `[]` stands in sheets about the test set
+    for a recording that is not in the file."""
+    if len(answers) != ANSWERS_PER_SHEET or which == "main" and not all(answers):
         return False
     given = [answer for answer in answers if answer]
     return all(type(video) is str and said in RELATIONS for video, said in given) \
-        and set(catch_answers(given)) == set(CATCH_TRIALS)
+        and set(catch_answers(given)) == set(CATCH_TRIALS[which])
 
 
 def catch_answers(given):
     """What a rater said of the catch trials, by layout."""
     result = {}
     for video, said in given:
-        layout = re.search(r"_E(\d{1,2})_", video, re.ASCII)
+        layout = re.search(r"_E(\d{1,2}(\.\d)?)_", video, re.ASCII)
         if layout and is_catch(video):
-            result[int(layout[1])] = said
+            result[layout[1]] = said
     return result
 
 
@@ -171,7 +211,7 @@ def count_ratings(folder, names, which):
             incomplete += 1
             continue
         given = [answer for answer in answers if answer]
-        if catch_answers(given) != CATCH_TRIALS:
+        if catch_answers(given) != CATCH_TRIALS[which]:
             failed += 1
             continue
         used += 1
@@ -183,23 +223,25 @@ def count_ratings(folder, names, which):
     if not counts:
         raise Unusable(f"{folder}: has no answers about these recordings")
     ratings = {"format": "phase-ratings/1", "ratings": {name: counts[name] for name in sorted(counts)}}
-    return ratings, f"{used} raters ({incomplete} sheets are incomplete, {failed} failed a catch trial)"
+    return ratings, f"by {used} raters ({incomplete} sheets are incomplete, {failed} failed a catch trial)"
 
 
 # The program.
 
 def run(arguments):
     files = [arguments.file, arguments.out, *arguments.predictions]
-    files += [path for path in (arguments.ratings, arguments.predicted) if path]
+    files += [path for path in (arguments.counted, arguments.ratings, arguments.predicted) if path]
     if len({os.path.realpath(path) for path in files}) < len(files):
         raise Unusable("the files to read and to write must be different")
-    recordings = ask(__file__, arguments.file, arguments.angles, arguments.set)
+    recordings = ask(__file__, arguments.file, "recordings", arguments.angles, arguments.set)
     events = recordings["events"]
     if not events:
         raise Unusable(f"{arguments.file}: all entries are empty")
     ratings = None
     if arguments.raters:
         ratings, raters = count_ratings(arguments.raters, recordings["names"], arguments.set)
+    elif arguments.counted:
+        ratings, raters = read_counted(arguments.counted, recordings["names"])
     predicted = count_predictions(arguments.predictions, recordings["names"]) if arguments.predictions else None
     save({"format": "phase-events/1", "events": events}, arguments.out)
     catch = recordings["catch"]
@@ -208,7 +250,7 @@ def run(arguments):
     tell(f"{len(events)} events in {arguments.out}" + (f" ({', '.join(left)})" if left else ""))
     if ratings:
         save(ratings, arguments.ratings)
-        tell(f"ratings of {len(ratings['ratings'])} events in {arguments.ratings} by {raters}")
+        tell(f"ratings of {len(ratings['ratings'])} events in {arguments.ratings}, {raters}")
     if predicted:
         save(predicted, arguments.predicted)
         tell(f"{len(arguments.predictions)} files of answers to {len(predicted['ratings'])} events in {arguments.predicted}")
@@ -218,7 +260,10 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("file", metavar="FILE", help="the recordings (PHASE/Videos_Test_humanratings)")
     parser.add_argument("out", metavar="EVENTS", help="the phase-events/1 file to write")
-    parser.add_argument("--raters", metavar="FOLDER", help="the raters' sheets (responses_genset)")
+    people = parser.add_mutually_exclusive_group()
+    people.add_argument("--raters", metavar="FOLDER", help="the raters' sheets (responses_genset, responses)")
+    people.add_argument("--counted", metavar="FILE",
+                        help="the raters' answers as counted (human_rating_labels_all_genset, human_rating_labels_all)")
     parser.add_argument("--ratings", metavar="FILE", help="the phase-ratings/1 file to write")
     parser.add_argument("--set", choices=["test", "main"], default="test",
                         help="the recordings of the test set, or the 400 others (PHASE/Videos_humanratings)")
@@ -226,8 +271,8 @@ def main():
     parser.add_argument("--predicted", metavar="FILE", help="the phase-ratings/1 file to write of them")
     add_angles_option(parser)
     arguments = parser.parse_args()
-    if bool(arguments.raters) != bool(arguments.ratings):
-        parser.error("--raters and --ratings go together")
+    if bool(arguments.raters or arguments.counted) != bool(arguments.ratings):
+        parser.error("--raters or --counted, and --ratings, go together")
     if bool(arguments.predictions) != bool(arguments.predicted):
         parser.error("--predictions and --predicted go together")
     main_of(run, arguments)
@@ -235,6 +280,7 @@ def main():
 
 if __name__ == "__main__":
     if is_reading(sys.argv):
-        answer(converted_entries if len(sys.argv) > 3 else predictions_of, *sys.argv[2:])
+        path, what, *options = sys.argv[2:]
+        answer({"recordings": converted_entries, "predictions": predictions_of, "counts": counts_of}[what], path, *options)
     else:
         main()

@@ -108,14 +108,73 @@ def admitted_names():
     """Everything that plain data and numpy arrays need, by module and name."""
     names = {
         ("_codecs", "encode"): latin1,
+        ("collections", "Counter"): collections.Counter,
         ("collections", "OrderedDict"): collections.OrderedDict,
         ("collections", "defaultdict"): collections.defaultdict,
     }
     for module in ("builtins", "__builtin__"):
         # What a defaultdict makes, and sets, which old protocols make by a call.
-        names.update({(module, kind.__name__): kind for kind in (dict, float, int, list, set)})
+        names.update({(module, kind.__name__): kind for kind in (dict, float, int, list, set, slice)})
+    names.update({name: Recorded for name in PANDAS_NAMES})
     names.update(numpy_names())
     return names
+
+
+class Recorded:
+    """What a pickle hands to something of pandas, which is not called: a table is read without pandas, whose versions
+    do not read each other's pickles."""
+
+    given = ()
+
+    def __init__(self, *given):
+        self.given = given
+
+    def __setstate__(self, state):
+        self.given += (state,)
+
+
+# What a table of texts and plain data needs, by module and name, in pandas 1 and 2.
+PANDAS_NAMES = [
+    ("pandas.core.frame", "DataFrame"), ("pandas.core.internals.managers", "BlockManager"),
+    ("pandas._libs.internals", "_unpickle_block"), ("pandas.core.indexes.base", "_new_Index"),
+    ("pandas.core.indexes.base", "Index"),
+]
+
+
+def parts_of(value):
+    """All that a recorded value is made of, itself first. Arrays are not taken apart."""
+    seen, waiting = set(), [value]
+    while waiting:
+        part = waiting.pop()
+        if id(part) in seen:
+            continue
+        seen.add(id(part))
+        yield part
+        if isinstance(part, Recorded):
+            waiting.extend(reversed(part.given))
+        elif isinstance(part, (list, tuple)):
+            waiting.extend(reversed(part))
+        elif isinstance(part, dict):
+            waiting.extend(reversed(list(part.values())))
+
+
+def column_of(table, index, column, kind):
+    """The only column of a table of pandas as pairs of a row's name and a value of a kind."""
+    numpy = import_numpy()
+    arrays, names = [], {}
+    for part in parts_of(table):
+        if isinstance(part, numpy.ndarray) and part.dtype == object:
+            arrays.append(part)
+        elif isinstance(part, dict) and isinstance(part.get("data"), numpy.ndarray):
+            names[part.get("name")] = part["data"]
+    columns = [labels for name, labels in names.items() if name != index]
+    values = [array for array in arrays if array.size and all(isinstance(it, kind) for it in array.flat)]
+    rows = names.get(index)
+    if rows is None or len(values) != 1 or not any(list(labels.flat) == [column] for labels in columns):
+        raise Unusable(f"must be a table of pandas with the rows `{index}` and the column `{column}`")
+    if values[0].size != rows.size:
+        raise Unusable(f"has {rows.size} rows and {values[0].size} values")
+    return list(zip(rows.flat, values[0].flat))
 
 
 def numpy_names():

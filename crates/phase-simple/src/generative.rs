@@ -6,7 +6,7 @@ use crate::{
     simulation_run::{Outlook, SimulationRun},
 };
 use phase_event::{ObservedEvent, Thought};
-use phase_minds::{MindParameters, SearchMemo};
+use phase_minds::{BeliefState, MindParameters, SearchMemo};
 use phase_model::{
     AGENT_COUNT, Action, AgentId, Body, Entity, MAX_ENTITIES, Vec2,
     random::{self, Pcg64Mcg, Purpose},
@@ -73,6 +73,16 @@ impl PreparedEvent {
     #[must_use]
     pub const fn agents(&self) -> &ImaginedAgents {
         &self.agents
+    }
+
+    /// What an agent can be taken to believe after so many steps, from what it could observe. All intents
+    /// share it.
+    ///
+    /// # Panics
+    /// If the event has fewer steps.
+    #[must_use]
+    pub fn belief(&self, agent: AgentId, step: usize) -> &dyn BeliefState {
+        self.beliefs[agent].after(step)
     }
 
     /// Agents that act: their minds search once.

@@ -2,7 +2,10 @@
 
 pub mod sets;
 
-use crate::{context::Context, error::CliError, interrupt, named::named, output::Output, parallel::Jobs};
+use crate::{
+    context::Context, effort::MindOptions, error::CliError, interrupt, named::named, output::Output,
+    parallel::Jobs,
+};
 use clap::{Args, ValueEnum, value_parser};
 use phase_laboratory::clip::{Cut, steps_of};
 use phase_render::PaletteName;
@@ -169,6 +172,9 @@ pub struct ObserveOptions {
     /// Observing method: SIMPLE, or its intent network alone
     #[arg(long, value_name = "METHOD", default_value = "simple")]
     pub method: MethodName,
+    /// The minds that SIMPLE imagines.
+    #[command(flatten)]
+    pub minds: MindOptions,
     /// Random seed of the observer
     #[arg(long, value_name = "S", default_value_t = 1)]
     pub seed: u64,
@@ -215,6 +221,7 @@ pub fn observe(arguments: &ObserveOptions, context: &Context) -> Result<(), CliE
             MethodName::Simple => ObservingMethod::Simple,
             MethodName::IntentNetwork => ObservingMethod::IntentNetwork,
         },
+        minds: arguments.minds.into(),
         seed: arguments.seed,
         presentations: arguments.presentations.clone(),
         out: arguments.out.clone(),

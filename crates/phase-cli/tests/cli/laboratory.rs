@@ -59,6 +59,31 @@ fn valid_video(file: &Path, frames: usize) {
     assert_eq!(found["streams"], wanted);
 }
 
+/// SIMPLE with one kind of minds says what agents see and believe: what an agent sees, it knows the place of.
+fn beliefs_agree_with_sight(path: &Path, id: &str) {
+    let observe = ["observe", "data", "--id", id, "--every", "1", "--minds", "phase", "--out", "believed"];
+    succeed(path, &observe);
+    let rows = table(&path.join("believed/desc-posterior_events.tsv"), '\t');
+    assert_eq!(rows.len(), 1 + 3);
+    let columns: Vec<usize> =
+        (0..rows[0].len()).filter(|&column| rows[0][column].contains("_sees_")).collect();
+    assert_eq!(columns.len(), 6, "two agents, each with three others");
+    let mut seen = 0;
+    for row in rows[1..].iter().filter(|row| row[columns[0]] != "n/a") {
+        for &column in columns.iter().filter(|&&column| row[column] != "n/a") {
+            let misplaced: f64 = row[column + 1].parse().expect("a distance");
+            assert!((0.0..50.0).contains(&misplaced));
+            if row[column] == "1.000000" {
+                seen += 1;
+                assert!(misplaced < 1e-3, "{}: {misplaced}", rows[0][column]);
+            }
+        }
+    }
+    assert!(seen > 0);
+    let minds = ["observe", "data", "--method", "intent-network", "--minds", "published", "--out", "no"];
+    assert!(refuse(path, &minds).contains("imagines no minds"));
+}
+
 #[test]
 fn events_become_stimuli() {
     let folder = tempfile::tempdir().expect("a folder");
@@ -109,6 +134,7 @@ fn events_become_stimuli() {
     let about = json(&path.join("observed/desc-posterior_events.json"));
     assert!(posterior[0].iter().all(|name| about[name]["Description"].is_string()));
     assert_eq!(table(&path.join("observed/desc-frames_events.tsv"), '\t').len(), 1 + 6 * 60);
+    beliefs_agree_with_sight(path, source);
     fs::write(path.join("run.tsv"), format!("onset\tduration\tstim_file\n7.5\t3\t{source}.mp4\n"))
         .expect("it is written");
     let shown = [

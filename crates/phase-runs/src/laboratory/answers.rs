@@ -1,10 +1,10 @@
-//! The answers of an observer as columns of a table.
+//! The answers of an observer, and the beliefs that it ascribes to agents, as columns of a table.
 
 use phase_eval::goals::canonical;
 use phase_model::{
-    AgentId, Attitude, Goal, Judgement, MAX_OBJECTS, RelationProbabilities, Sign, words::Names,
+    AgentId, Attitude, Entity, Goal, Judgement, MAX_OBJECTS, RelationProbabilities, Sign, State, words::Names,
 };
-use phase_simple::physical_goals;
+use phase_simple::{PreparedEvent, physical_goals};
 
 /// A goal with an agent that may have it.
 fn goals() -> impl Iterator<Item = (AgentId, Goal)> {
@@ -44,7 +44,40 @@ pub(super) fn answer_columns() -> Vec<(String, String, String)> {
         let wants = names.wants(goal, agent);
         add(format!("{who}_wants_{}", slug(&wants)), format!("that {who} wants {wants}"));
     }
+    for (agent, entity) in others() {
+        let (who, what) = (names.agents[agent], names.entity(entity));
+        let name = |verb: &str| format!("{who}_{verb}_{}", slug(&what));
+        columns.push((name("sees"), String::new(), format!("whether {who} sees {what}: 1 or 0")));
+        let about = format!("mean distance of the places where {who} believes {what} to be from its place");
+        columns.push((name("misplaces"), "u".into(), about));
+    }
     columns
+}
+
+/// Every agent with everything else that a scene may have.
+fn others() -> impl Iterator<Item = (AgentId, Entity)> {
+    let of = |agent| Entity::ALL.into_iter().map(move |entity| (agent, entity));
+    AgentId::ALL.into_iter().flat_map(of).filter(|(agent, entity)| *entity != Entity::Agent(*agent))
+}
+
+/// The values of the columns of beliefs at the last step of an event; none without a prepared event, or of an
+/// entity that it does not have.
+pub(super) fn beliefs(prepared: Option<&PreparedEvent>) -> Vec<Option<f64>> {
+    let of = |(agent, entity): (AgentId, Entity)| {
+        let known = prepared.filter(|prepared| prepared.observed().entities().any(|it| it == entity));
+        let found = known.map(|prepared| {
+            let step = prepared.observed().steps();
+            // Rows of recordings are means over a step.
+            let (belief, state) = (prepared.belief(agent, step), &prepared.motion().states[step]);
+            let place = state.bodies[entity].position;
+            let apart = |particle: &State| f64::from(particle.bodies[entity].position.distance(place));
+            let particles = belief.particles();
+            let misplaced = particles.iter().map(apart).sum::<f64>() / particles.len().max(1) as f64;
+            [f64::from(u8::from(belief.observe(state).observed.contains(entity))), misplaced]
+        });
+        found.map_or([None; 2], |found| found.map(Some))
+    };
+    others().flat_map(of).collect()
 }
 
 fn slug(text: &str) -> String {

@@ -2,15 +2,18 @@
 
 use super::{
     Opened,
-    answers::{answer_columns, answers},
+    answers::{answer_columns, answers, beliefs},
     clips::source_digest,
     open,
     tables::{MISSING, Sheet, Table, unusable},
     unfit,
 };
-use crate::{error::RunError, interrupt, listener::Listener, parallel::make_all, source::EventInput, words};
+use crate::{
+    effort::MindChoice, error::RunError, interrupt, listener::Listener, parallel::make_all,
+    source::EventInput, words,
+};
 use core::ops::ControlFlow;
-use phase_event::{MethodError, ObservedEvent, Recording};
+use phase_event::{MethodError, ObservedEvent, Recogniser, Recording};
 use phase_files::{atomic, checksum::sha256_hex, regular, run::Run};
 use phase_laboratory::{
     clip::{Clip, Cut, Window, seconds_of},
@@ -20,7 +23,7 @@ use phase_model::{
     Judgement, State,
     arena::{FRAMES_PER_SECOND, SUBSTEPS},
 };
-use phase_simple::{Models, Simple};
+use phase_simple::{Models, PreparedEvent, Simple};
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 use std::{
@@ -58,6 +61,8 @@ pub struct Observation {
     pub every: usize,
     /// The observing method.
     pub method: ObservingMethod,
+    /// The minds that SIMPLE imagines; by default it averages over both kinds.
+    pub minds: MindChoice,
     /// Random seed of the observer.
     pub seed: u64,
     /// Times at which videos were shown, as the `*_events.tsv` of a run: `onset` and `stim_file`.
@@ -112,12 +117,14 @@ impl Observation {
             Some(path) => sha256_hex(&regular::bytes(path)?),
             None => String::new(),
         };
+        let simple = self.simple()?;
         let run = Run::new([
             ("command", "observe".into()),
             ("events", source_digest(&source)?.into()),
             ("cut", self.cut.map_or(Value::Null, |cut| format!("{cut:?}").into())),
             ("every", self.every.into()),
             ("method", json!(self.method)),
+            ("settings", Recogniser::settings(&simple)),
             ("seed", self.seed.into()),
             ("presentations", shown.into()),
         ]);
@@ -130,7 +137,6 @@ impl Observation {
             Opened::Open(folder) => folder,
         };
         let models = Arc::new(Models::bundled()?);
-        let simple = Simple::bundled()?;
         let cache = folder.cache();
         let activity = format!("observing {}", words::events(source.len()));
         let progress = listener.progress(&activity, source.len(), 1);
@@ -169,6 +175,15 @@ impl Observation {
         Ok(Observed { files, chunks, is_new: true })
     }
 
+    /// SIMPLE with the minds that were asked for.
+    fn simple(&self) -> Result<Simple, RunError> {
+        if self.method == ObservingMethod::IntentNetwork && self.minds != MindChoice::default() {
+            return Err(RunError::Usage("--minds: method \"intent-network\" imagines no minds".into()));
+        }
+        let MindChoice { kind, original_random, .. } = self.minds;
+        Ok(Simple::bundled()?.with_minds(kind, self.minds.recorder(), original_random))
+    }
+
     fn course(
         &self,
         recording: &Recording,
@@ -194,17 +209,16 @@ impl Observation {
         let states: Vec<State> = window.frames(recording).collect();
         let frames = regressors::motion(&recording.scene.physics(), &states)
             .map_err(|source| RunError::Render { id: recording.id.clone(), source })?;
-        let Some(judgements) = self.judgements(&event, simple, models).map_err(failed)? else {
+        let Some(all_answers) = self.answers(&event, simple, models).map_err(failed)? else {
             return Ok(None);
         };
-        let objects = event.object_sizes().len();
         let mut reader = models.intents.watch(&event);
         let mut rows = event.rows().iter();
         if let Some(first) = rows.next() {
             reader.push(first);
         }
-        let mut chunks = Vec::with_capacity(judgements.len());
-        for (k, judgement) in judgements.iter().enumerate() {
+        let mut chunks = Vec::with_capacity(all_answers.len());
+        for (k, answers) in all_answers.into_iter().enumerate() {
             let from = k * self.every;
             let to = (from + self.every).min(window.steps);
             for row in rows.by_ref().take(to - from) {
@@ -214,7 +228,7 @@ impl Observation {
             chunks.push(Chunk {
                 onset: seconds_of(from),
                 duration: seconds_of(to - from),
-                answers: answers(judgement, objects),
+                answers,
                 motion: regressors::mean(part).to_vec(),
                 activations: reader.activations(),
             });
@@ -223,22 +237,25 @@ impl Observation {
         Ok(Some(Course { id: recording.id.clone(), chunks, frames }))
     }
 
-    /// The answer at the end of every chunk; `None` if a stop was requested.
-    fn judgements(
+    /// The answers at the end of every chunk; `None` if a stop was requested.
+    fn answers(
         &self,
         event: &ObservedEvent,
         simple: &Simple,
         models: &Models,
-    ) -> Result<Option<Vec<Judgement>>, MethodError> {
+    ) -> Result<Option<Vec<Vec<Option<f64>>>>, MethodError> {
+        let objects = event.object_sizes().len();
         let ends = (1..).map(|k| (k * self.every).min(event.steps()));
-        let count = event.steps().div_ceil(self.every);
-        let ends: Vec<usize> = ends.take(count).collect();
+        let ends = ends.take(event.steps().div_ceil(self.every));
+        let told = |judgement: &Judgement, prepared: Option<&PreparedEvent>| {
+            [answers(judgement, objects), beliefs(prepared)].concat()
+        };
         if self.method == ObservingMethod::IntentNetwork {
-            let of = |&end: &usize| models.intents.posterior(&event.prefix(end)).judgement();
-            return Ok(Some(ends.iter().map(of).collect()));
+            let of = |end| told(&models.intents.posterior(&event.prefix(end)).judgement(), None);
+            return Ok(Some(ends.map(of).collect()));
         }
         let mut observer = simple.observer(&event.prefix(0), self.seed).map_err(MethodError::new)?;
-        let mut judgements = Vec::with_capacity(count);
+        let mut all = Vec::new();
         let mut seen = 0;
         for end in ends {
             for row in &event.rows()[seen + 1..=end] {
@@ -248,11 +265,11 @@ impl Observation {
             let mut tick =
                 || if interrupt::requested() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) };
             match observer.inference(&mut tick).map_err(MethodError::new)? {
-                Some(inference) => judgements.push(simple.judgement(&inference)),
+                Some(inference) => all.push(told(&simple.judgement(&inference), observer.prepared())),
                 None => return Ok(None),
             }
         }
-        Ok(Some(judgements))
+        Ok(Some(all))
     }
 
     /// Writes the tables and returns their names.
