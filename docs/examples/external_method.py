@@ -8,8 +8,8 @@ relate to each other?) and trajectories/rules-of-thumb.json (Task 2: where will 
 first 20?).
 
 The method is deliberately small. It has no physics, no planning and no idea of beliefs, only rules of thumb about
-motion: whoever ends at a landmark wanted to be there, whoever moved an object wanted it where it ended, whoever kept
-heading for the other wanted to reach it. It never says that an agent hinders, only what each would want for itself.
+motion: an agent that ends at a landmark wanted to be there, one that moved an object wanted it where it ended, and one
+that kept heading for the other wanted to reach it. It never says that an agent hinders, only what each would want for itself.
 Put a method of your own in place of `judge` and `forecast`; the rest is the way in and out.
 """
 

@@ -15,7 +15,7 @@ pub enum Foresight {
     /// [`Dynamics::step`](phase_model::Dynamics::step), the exact dynamics.
     Exact,
     /// Coarse steps in a world without collisions between bodies: agents and objects pass through each other,
-    /// and only walls stop them. Whoever makes a mind gives it such dynamics, as `phase-minds` does.
+    /// and only walls stop them. The caller gives a mind such dynamics, as `phase-minds` does.
     Points,
 }
 

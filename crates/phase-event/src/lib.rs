@@ -5,20 +5,22 @@
 //! both agents' actions ([`Step`]) and their explanations ([`Thought`]). Reading a file of events:
 //!
 //! ```
-//! let text = r#"{"format": "phase-events/1", "events": [{"id": "chase", "layout": {"base": 0},
-//!     "agents": [{"size_level": 0, "strength_level": 2, "alpha": 0,
-//!                 "goal": {"kind": "touch", "agent": 0, "other": 1, "sign": 1}},
-//!                {"size_level": 0, "strength_level": 2, "alpha": 0,
-//!                 "goal": {"kind": "touch", "agent": 0, "other": 1, "sign": -1}}],
-//!     "objects": [], "event": "chasing",
-//!     "trajectory": {"columns": ["x", "y", "vx", "vy", "angle"], "objects": [],
-//!                    "agents": [[[8, 14, 0, 0, 0]], [[24, 14, 0, 0, 1.5]]]}}]}"#;
-//! for recording in phase_event::from_json(text)? {
-//!     let kind = recording.scene.kind.name();
-//!     let relation = recording.relation.name();
-//!     println!("{}: {kind}, {relation}, {} steps", recording.id, recording.trajectory.steps());
+//! fn main() -> Result<(), Box<dyn std::error::Error>> {
+//!     let text = r#"{"format": "phase-events/1", "events": [{"id": "chase", "layout": {"base": 0},
+//!         "agents": [{"size_level": 0, "strength_level": 2, "alpha": 0,
+//!                     "goal": {"kind": "touch", "agent": 0, "other": 1, "sign": 1}},
+//!                    {"size_level": 0, "strength_level": 2, "alpha": 0,
+//!                     "goal": {"kind": "touch", "agent": 0, "other": 1, "sign": -1}}],
+//!         "objects": [], "event": "chasing",
+//!         "trajectory": {"columns": ["x", "y", "vx", "vy", "angle"], "objects": [],
+//!                        "agents": [[[8, 14, 0, 0, 0]], [[24, 14, 0, 0, 1.5]]]}}]}"#;
+//!     for recording in phase_event::from_json(text)? {
+//!         let kind = recording.scene.kind.name();
+//!         let relation = recording.relation.name();
+//!         println!("{}: {kind}, {relation}, {} steps", recording.id, recording.trajectory.steps());
+//!     }
+//!     Ok(())
 //! }
-//! # Ok::<(), phase_event::EventReadError>(())
 //! ```
 //!
 //! A method that perceives events implements [`Recogniser`] (goals and relations) or [`Forecaster`]

@@ -25,22 +25,24 @@
 //! use phase_forward::Forward;
 //! use phase_model::{Action, AgentBody, AgentId, Body, Dynamics, Entity, PhysicsConfig, State, Vec2};
 //!
-//! let body = AgentBody { radius: 0.8, max_force: 450.0 };
-//! let agents = [body; 2];
-//! let physics = PhysicsConfig { walls: Vec::new(), agents, object_radii: [0.0; 2], object_count: 0 };
-//! let places = [Vec2::new(10.0, 6.0), Vec2::new(20.0, 16.0), Vec2::ZERO, Vec2::ZERO];
-//! let start = State::new(places.map(|place| Body::at_rest(place, 0.0))); // both face +y
-//! let forward = Forward::new(&physics);
+//! fn main() {
+//!     let body = AgentBody { radius: 0.8, max_force: 450.0 };
+//!     let agents = [body; 2];
+//!     let physics = PhysicsConfig { walls: Vec::new(), agents, object_radii: [0.0; 2], object_count: 0 };
+//!     let places = [Vec2::new(10.0, 6.0), Vec2::new(20.0, 16.0), Vec2::ZERO, Vec2::ZERO];
+//!     let start = State::new(places.map(|place| Body::at_rest(place, 0.0))); // both face +y
+//!     let forward = Forward::new(&physics);
 //!
-//! let mut state = start;
-//! forward.step(&mut state, [Action::Up, Action::NoForce]);
-//! let agent = Entity::Agent(AgentId::ZERO);
-//! assert!(state.position(agent).y > 6.0 && state.position(agent).x == 10.0);
-//! assert_eq!(state.position(Entity::Agent(AgentId::ONE)), places[1]); // nothing acts on the other
+//!     let mut state = start;
+//!     forward.step(&mut state, [Action::Up, Action::NoForce]);
+//!     let agent = Entity::Agent(AgentId::ZERO);
+//!     assert!(state.position(agent).y > 6.0 && state.position(agent).x == 10.0);
+//!     assert_eq!(state.position(Entity::Agent(AgentId::ONE)), places[1]); // nothing acts on the other
 //!
-//! let mut again = start;
-//! forward.step(&mut again, [Action::Up, Action::NoForce]);
-//! assert_eq!(again, state); // bit for bit
+//!     let mut again = start;
+//!     forward.step(&mut again, [Action::Up, Action::NoForce]);
+//!     assert_eq!(again, state); // bit for bit
+//! }
 //! ```
 //!
 //! # One substep of 1/60 s
@@ -90,6 +92,8 @@
 
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
+// The example is a whole program, as README shows it.
+#![allow(clippy::needless_doctest_main)]
 
 mod body;
 mod box2d;

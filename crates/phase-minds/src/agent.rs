@@ -9,8 +9,8 @@ use phase_pomcp::PomcpError;
 
 /// One agent of Algorithm 1: it perceives, believes and decides.
 ///
-/// Everything that it knows comes from observations. Whoever has the true state makes them by the senses of
-/// the agent's kind: the first by [`observe()`](crate::observe()), those after an action by
+/// Everything that it knows comes from observations. The caller, which has the true state, makes them by the
+/// senses of the agent's kind: the first by [`observe()`](crate::observe()), those after an action by
 /// [`observe`](Self::observe). A copy that goes on with copies of the generators decides as the original,
 /// bit for bit.
 #[derive(Clone, Debug)]

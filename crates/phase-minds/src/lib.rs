@@ -6,8 +6,8 @@
 //! parameters name ([`MindKind`]): our own, `phase-agent`, or the published simulator's, `phase-published`.
 //!
 //! Key design decision: a mind brings its own senses ([`BeliefState::observe`]), because the two kinds differ
-//! in what they see and feel. The trade-off is that whoever holds the true state must hand it to them;
-//! nothing but the observation is kept of it. Minds are chosen at run time, so they are trait objects, and
+//! in what they see and feel. The trade-off is that the caller must hand them the true state; nothing
+//! but the observation is kept of it. Minds are chosen at run time, so they are trait objects, and
 //! all random draws come from one kind of generator.
 //!
 //! A mind of either kind that sees its landmark ahead walks there:

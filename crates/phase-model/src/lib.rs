@@ -20,24 +20,26 @@
 //!     Sign, Size, Strength, Vec2,
 //! };
 //!
-//! let landmark = LandmarkId::TOP_LEFT;
-//! let goal = Goal::AgentOnLandmark { agent: AgentId::ONE, landmark, sign: Sign::Positive };
-//! let spec = |attitude, x| AgentSpec {
-//!     size: Size::Small,
-//!     strength: Strength::Strong,
-//!     goal, // a helper's goal is the other's
-//!     attitude,
-//!     awareness: Awareness::default(),
-//!     start: Body::at_rest(Vec2::new(x, 8.0), 0.0),
-//! };
-//! let agents = [spec(Attitude::Help, 12.0), spec(Attitude::Neutral, 20.0)];
-//! let layout = Layout::new(2, None)?;
-//! let scene = Scene { layout, agents, objects: Vec::new(), kind: EventKind::Helping };
-//! scene.validate()?;
-//! assert_eq!(scene.relation(), Relation::Friendly);
-//! assert_eq!(scene.physics().walls.len(), 2); // of layout 2
-//! assert_eq!(Scene::from_json(&scene.to_json()?)?, scene);
-//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! fn main() -> Result<(), Box<dyn std::error::Error>> {
+//!     let landmark = LandmarkId::TOP_LEFT;
+//!     let goal = Goal::AgentOnLandmark { agent: AgentId::ONE, landmark, sign: Sign::Positive };
+//!     let spec = |attitude, x| AgentSpec {
+//!         size: Size::Small,
+//!         strength: Strength::Strong,
+//!         goal, // a helper's goal is the other's
+//!         attitude,
+//!         awareness: Awareness::default(),
+//!         start: Body::at_rest(Vec2::new(x, 8.0), 0.0),
+//!     };
+//!     let agents = [spec(Attitude::Help, 12.0), spec(Attitude::Neutral, 20.0)];
+//!     let layout = Layout::new(2, None)?;
+//!     let scene = Scene { layout, agents, objects: Vec::new(), kind: EventKind::Helping };
+//!     scene.validate()?;
+//!     assert_eq!(scene.relation(), Relation::Friendly);
+//!     assert_eq!(scene.physics().walls.len(), 2); // of layout 2
+//!     assert_eq!(Scene::from_json(&scene.to_json()?)?, scene);
+//!     Ok(())
+//! }
 //! ```
 
 #![forbid(unsafe_code)]

@@ -1,6 +1,6 @@
 //! The findings of searches, kept for other minds that would search for the same.
 //!
-//! Many intents lead to one subgoal: whoever wants an object that it does not see looks for it, wherever it
+//! Many intents lead to one subgoal: an agent that wants an object out of its sight looks for it, wherever it
 //! is to go. An inference lets minds with every intent decide in the same states with the same random
 //! numbers, so most of their searches are one search.
 

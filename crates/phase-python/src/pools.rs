@@ -1,7 +1,7 @@
 //! Pools of threads, which a forked process makes anew.
 //!
 //! A fork copies the process with one thread: in the child a pool of the parent has no threads any more, and
-//! whoever gave it work would wait for ever.
+//! a caller that gave it work would wait for ever.
 
 use crate::error::raise;
 use phase_model::setting::THREADS;
@@ -19,8 +19,8 @@ struct Pools {
     by_threads: BTreeMap<usize, Arc<ThreadPool>>,
 }
 
-/// It is locked only by whoever holds the interpreter's lock, as whoever forks does. So it is free in every
-/// child.
+/// Only the holder of the interpreter's lock locks it, and a process forks while it holds that lock. So it is
+/// free in every child.
 static POOLS: Mutex<Pools> = Mutex::new(Pools { process: 0, by_threads: BTreeMap::new() });
 
 /// Checks a number of threads.

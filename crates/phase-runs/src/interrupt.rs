@@ -1,7 +1,7 @@
 //! A graceful stop of all runs of this process: nothing new is begun, what is under way is given up, what is
 //! finished is kept.
 //!
-//! The request is one for the whole process, as Ctrl-C is. Whoever listens for Ctrl-C calls [`request`].
+//! The request is one for the whole process, as Ctrl-C is. A listener for Ctrl-C calls [`request`].
 
 use core::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, Ordering};

@@ -15,19 +15,21 @@
 //! use phase_model::{AgentId, Attitude, Layout, Relation, Strength};
 //! use phase_sampler::{Request, Starts, Variant, feasibility, sample};
 //!
-//! let layouts: Vec<Layout> = Layout::all_used().collect();
-//! let starts = Starts::Near;
-//! let request = Request { variant: Variant::Lift, goal_index: 0, layouts: &layouts, starts };
-//! let scene = sample(&request, &mut stream(1, Purpose::Scene, 0))?;
-//! assert_eq!(scene.relation(), Relation::Friendly);
+//! fn main() -> Result<(), Box<dyn std::error::Error>> {
+//!     let layouts: Vec<Layout> = Layout::all_used().collect();
+//!     let starts = Starts::Near;
+//!     let request = Request { variant: Variant::Lift, goal_index: 0, layouts: &layouts, starts };
+//!     let scene = sample(&request, &mut stream(1, Purpose::Scene, 0))?;
+//!     assert_eq!(scene.relation(), Relation::Friendly);
 //!
-//! // Which of the two helps is drawn.
-//! let helper = if scene.agents[0].attitude == Attitude::Help { AgentId::ZERO } else { AgentId::ONE };
-//! let helpee = helper.other();
-//! assert_eq!(scene.agents[helpee].strength, Strength::Weak);
-//! let goal = scene.agents[helpee].goal;
-//! assert!(feasibility::together(&scene, goal) && !feasibility::alone(&scene, helpee, goal));
-//! # Ok::<(), phase_sampler::SampleError>(())
+//!     // Which of the two helps is drawn.
+//!     let helper = if scene.agents[0].attitude == Attitude::Help { AgentId::ZERO } else { AgentId::ONE };
+//!     let helpee = helper.other();
+//!     assert_eq!(scene.agents[helpee].strength, Strength::Weak);
+//!     let goal = scene.agents[helpee].goal;
+//!     assert!(feasibility::together(&scene, goal) && !feasibility::alone(&scene, helpee, goal));
+//!     Ok(())
+//! }
 //! ```
 
 #![forbid(unsafe_code)]

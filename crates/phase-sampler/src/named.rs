@@ -1,4 +1,4 @@
-//! Scenes by the names of kinds and variants, for whoever has them as text.
+//! Scenes by the names of kinds and variants, given as text.
 
 use crate::{SampleError, Variant, sample_kind, sample_variant};
 use phase_model::{

@@ -75,7 +75,7 @@ fn reason(error: &io::Error) -> String {
 pub(crate) struct ApiError {
     /// The status.
     pub(crate) status: StatusCode,
-    /// The problem, as a sentence for whoever asked.
+    /// The problem, as a sentence for the client.
     pub(crate) sentence: String,
 }
 

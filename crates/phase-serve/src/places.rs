@@ -1,5 +1,5 @@
-//! Places for guests: so many in all and so many of one address. Whoever comes gets one; if none is free, the
-//! guest that has been silent for longest leaves.
+//! Places for guests: a number in all and a number for each address. A new guest gets one; if none is free,
+//! the guest that has been silent for longest leaves.
 
 use core::cmp::Reverse;
 use std::{

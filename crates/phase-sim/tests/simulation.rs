@@ -198,7 +198,7 @@ fn a_simulation_can_be_stepped_and_taken_over() {
     assert!(stepped.is_over());
     assert_eq!(stepped.event(), &whole);
     assert_eq!(stepped.into_event(), whole);
-    // Whoever goes on after the end goes on as if it had not been one.
+    // An episode that is continued after its end goes on as if it had not ended.
     let longer = SimulationSettings { max_steps: 14, rest_steps: 100, still_steps: 100, ..settings };
     let long = simulate(&scene, 7, &longer).unwrap();
     let mut on = Simulation::new(&scene, 7, &SimulationSettings { max_steps: 3, ..longer }).unwrap();

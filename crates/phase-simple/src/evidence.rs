@@ -13,7 +13,7 @@ use phase_pomcp::PomcpError;
 /// ```
 /// use phase_simple::Budget;
 ///
-/// // Whoever watches an event as it happens limits what a row may take.
+/// // To watch an event as it happens, limit what a row may take.
 /// let budget = Budget { decisions: Some(20) };
 /// assert_ne!(budget, Budget::UNLIMITED);
 /// ```

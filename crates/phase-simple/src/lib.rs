@@ -23,22 +23,26 @@
 //! use phase_model::{AgentId, Body, Goal, LandmarkId, Layout, Sign, Size, Vec2};
 //! use phase_simple::{UniformStrength, InferenceSettings, explain};
 //!
-//! let rows = (0..=8_u8).map(|step| {
-//!     let places = [Vec2::new(23.5, 6.0 + f32::from(step)), Vec2::new(8.5, 19.5), Vec2::ZERO, Vec2::ZERO];
-//!     let mut row = places.map(|place| Body::at_rest(place, 0.0)); // both face +y
-//!     row[0].velocity = Vec2::new(0.0, 12.0); // 1 u in each step of 1/12 s
-//!     row
-//! });
-//! let observed = ObservedEvent::new(Layout::new(0, None)?, [Size::Small; 2], Vec::new(), rows.collect())?;
+//! fn main() -> Result<(), Box<dyn std::error::Error>> {
+//!     let rows = (0..=8_u8).map(|step| {
+//!         let [first, second] = [Vec2::new(23.5, 6.0 + f32::from(step)), Vec2::new(8.5, 19.5)];
+//!         let places = [first, second, Vec2::ZERO, Vec2::ZERO];
+//!         let mut row = places.map(|place| Body::at_rest(place, 0.0)); // both face +y
+//!         row[0].velocity = Vec2::new(0.0, 12.0); // 1 u in each step of 1/12 s
+//!         row
+//!     });
+//!     let layout = Layout::new(0, None)?;
+//!     let observed = ObservedEvent::new(layout, [Size::Small; 2], Vec::new(), rows.collect())?;
 //!
-//! let mut settings = InferenceSettings::default();
-//! settings.agents.minds = settings.agents.minds.with_particles(5).with_simulations(20);
-//! let posterior = explain(&observed, &UniformStrength, 1, &settings)?.posterior;
-//! let (likeliest, _probability) = posterior.goals(AgentId::ZERO)[0];
-//! let agent = AgentId::ZERO;
-//! let landmark = LandmarkId::TOP_RIGHT;
-//! assert_eq!(likeliest, Goal::AgentOnLandmark { agent, landmark, sign: Sign::Positive });
-//! # Ok::<(), Box<dyn std::error::Error>>(())
+//!     let mut settings = InferenceSettings::default();
+//!     settings.agents.minds = settings.agents.minds.with_particles(5).with_simulations(20);
+//!     let posterior = explain(&observed, &UniformStrength, 1, &settings)?.posterior;
+//!     let (likeliest, _probability) = posterior.goals(AgentId::ZERO)[0];
+//!     let agent = AgentId::ZERO;
+//!     let landmark = LandmarkId::TOP_RIGHT;
+//!     assert_eq!(likeliest, Goal::AgentOnLandmark { agent, landmark, sign: Sign::Positive });
+//!     Ok(())
+//! }
 //! ```
 
 #![forbid(unsafe_code)]

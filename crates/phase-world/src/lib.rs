@@ -9,17 +9,19 @@
 //! use phase_model::{Action, AgentBody, AgentId, Body, Entity, PhysicsConfig, State, Vec2};
 //! use phase_world::World;
 //!
-//! let body = AgentBody { radius: 0.8, max_force: 450.0 };
-//! let physics =
-//!     PhysicsConfig { walls: Vec::new(), agents: [body; 2], object_radii: [0.0; 2], object_count: 0 };
-//! let places = [Vec2::new(10.0, 6.0), Vec2::new(20.0, 16.0), Vec2::ZERO, Vec2::ZERO];
-//! let start = State::new(places.map(|place| Body::at_rest(place, 0.0))); // both face +y
-//! let mut world = World::new(&physics, &start);
+//! fn main() {
+//!     let body = AgentBody { radius: 0.8, max_force: 450.0 };
+//!     let physics =
+//!         PhysicsConfig { walls: Vec::new(), agents: [body; 2], object_radii: [0.0; 2], object_count: 0 };
+//!     let places = [Vec2::new(10.0, 6.0), Vec2::new(20.0, 16.0), Vec2::ZERO, Vec2::ZERO];
+//!     let start = State::new(places.map(|place| Body::at_rest(place, 0.0))); // both face +y
+//!     let mut world = World::new(&physics, &start);
 //!
-//! let substeps = world.step([Action::Up, Action::NoForce]);
-//! let heights = substeps.map(|state| state.position(Entity::Agent(AgentId::ZERO)).y);
-//! assert!(heights[0] > 6.0 && heights.is_sorted());
-//! assert!(world.state().position(Entity::Agent(AgentId::ONE)).distance(places[1]) < 1e-3);
+//!     let substeps = world.step([Action::Up, Action::NoForce]);
+//!     let heights = substeps.map(|state| state.position(Entity::Agent(AgentId::ZERO)).y);
+//!     assert!(heights[0] > 6.0 && heights.is_sorted());
+//!     assert!(world.state().position(Entity::Agent(AgentId::ONE)).distance(places[1]) < 1e-3);
+//! }
 //! ```
 //!
 //! Key design decision: everything is done with rapier's own features: solver settings (`settings`), bodies
@@ -51,6 +53,8 @@
 
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
+// The example is a whole program, as README shows it.
+#![allow(clippy::needless_doctest_main)]
 
 mod bodies;
 mod contact;

@@ -1,6 +1,6 @@
-//! Examples of crates for others, compiled and run as their READMEs show them, in projects of their own.
+//! Examples of crates for others, as their READMEs show them, in projects of their own.
 
-use std::{fs, path::Path, process::Command};
+use std::{collections::BTreeSet, fs, path::Path, process::Command};
 
 /// The repository.
 fn root() -> &'static Path {
@@ -22,9 +22,24 @@ fn cargo(project: &Path, arguments: &[&str]) {
     assert!(output.status.success(), "{arguments:?}: {}", String::from_utf8_lossy(&output.stderr));
 }
 
+/// Crates that plan alone. Their examples are run.
+const RUN: [&str; 3] = ["phase-pomcp", "phase-planner", "phase-navigation"];
+
+/// The other crates that docs/how-to/rust.md names. Their examples are compiled here, which is cheaper, and
+/// run as tests of their documentation.
+const CHECKED: [&str; 7] = [
+    "phase-model",
+    "phase-event",
+    "phase-forward",
+    "phase-world",
+    "phase-sampler",
+    "phase-sim",
+    "phase-simple",
+];
+
 #[test]
-fn examples_run_in_projects_of_their_own() {
-    for name in ["phase-pomcp", "phase-planner", "phase-navigation"] {
+fn examples_are_whole_programs_in_projects_of_their_own() {
+    for name in RUN.into_iter().chain(CHECKED) {
         let page = fs::read_to_string(root().join(format!("crates/{name}/README.md"))).expect("a README");
         let project = tempfile::tempdir().expect("a folder");
         let programs = project.path().join("src/bin");
@@ -45,8 +60,25 @@ fn examples_run_in_projects_of_their_own() {
             }
         }
         assert!(!examples.is_empty(), "{name}");
+        if CHECKED.contains(&name) {
+            cargo(project.path(), &["check", "--bins"]);
+            continue;
+        }
         for k in 0..examples.len() {
             cargo(project.path(), &["run", "--bin", &format!("example{k}")]);
         }
     }
+}
+
+/// What a user may depend on alone is what these tests compile.
+#[test]
+fn the_crates_of_the_page_are_tried() {
+    let page = fs::read_to_string(root().join("docs/how-to/rust.md")).expect("a page");
+    let named: BTreeSet<&str> = page
+        .split("](../../crates/")
+        .skip(1)
+        .filter_map(|rest| rest.split_once("/README.md)"))
+        .map(|(name, _)| name)
+        .collect();
+    assert_eq!(named, RUN.into_iter().chain(CHECKED).collect());
 }

@@ -174,7 +174,7 @@ fn without_space_it_fails_and_goes_on_once_there_is_some() {
     }
 }
 
-/// Whoever removes the folder of a run loses what was finished, and is not told otherwise.
+/// If the folder of a run is removed, what was finished is lost, and the program says so.
 #[test]
 fn a_folder_that_is_removed_meanwhile_is_told() {
     let folder = tempfile::tempdir().expect("a folder");

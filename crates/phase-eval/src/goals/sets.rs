@@ -6,9 +6,9 @@ use phase_model::AgentId;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
-/// Shares of sets all of whose events are recognised. Whoever overlooks the one difference, and answers as
-/// most events with the same scene and the same goal of the other agent would have it, is never right about a
-/// whole set.
+/// Shares of sets all of whose events are recognised. A method that overlooks the one difference, and
+/// answers as most events with the same scene and the same goal of the other agent would have it, is never
+/// right about a whole set.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
 pub struct SetScores {
     /// Number of sets.

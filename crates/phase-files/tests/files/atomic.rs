@@ -106,8 +106,7 @@ fn abandoned_parts_are_removed() {
     assert!(path.exists());
 }
 
-/// Whoever begins to write a file removes what others have left of it, and nothing of those that are writing
-/// it.
+/// A writer that begins a file removes what others have left of it, and nothing of those that are writing it.
 #[test]
 fn files_that_are_being_written_are_not_taken_for_abandoned() {
     let folder = tempfile::tempdir().expect("a folder");

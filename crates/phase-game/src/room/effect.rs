@@ -30,7 +30,7 @@ pub enum Effect {
     Send(AgentId, ToPlayer),
     /// A round that was played to its end.
     Finished(Box<Recording>),
-    /// The simulation failed, and with it the game. Players are told so; why concerns whoever runs the
-    /// server.
+    /// The simulation failed, and with it the game. Players are told so; the reason is for the operator of
+    /// the server.
     Failed(RoomError),
 }

@@ -74,7 +74,7 @@ pub struct Room {
 
 impl Room {
     /// A room for a practice, the first of the rounds, and the rounds after it. `keys` are kept in the
-    /// journal for whoever lets players in.
+    /// journal for the server, which lets players in.
     ///
     /// # Errors
     /// [`RoomError`].

@@ -178,7 +178,7 @@ fn whoever_leaves_ends_the_game() {
     assert_eq!(table.entries().last(), Some(&Entry::Over { ending: Ending::Absent }));
 }
 
-/// Whoever has already arrived ends the round; whoever avoids something has to hold out.
+/// A player who has arrived ends the round; a player who avoids something has to hold out.
 #[test]
 fn a_round_ends_when_both_goals_are_achieved() {
     let mut there = round("a", "independent");
@@ -239,7 +239,7 @@ fn minds_that_no_machine_can_search_with_open_no_room() {
     assert!(refused.to_string().contains("`minds.simulations` must be 1 to 1000000"), "{refused}");
 }
 
-/// Whoever repeats a message makes no work for the other player.
+/// A repeated message makes no work for the other player.
 #[test]
 fn what_changes_nothing_is_not_told() {
     let mut table = Table::two().both_come();

@@ -7,8 +7,8 @@ use phase_pomcp::{
 };
 use rand::{Rng, RngExt};
 
-/// The problem: places −30 to 30, moves of 1 and 10 in both directions, and the action of stopping, which
-/// earns 100 at 0, costs 100 anywhere else, and ends the problem. A move costs 1.
+/// The problem: places −60 to 60, starts uniform in −30 to 30, moves of 1 and 10 in both directions, and the
+/// action of stopping, which earns 100 at 0, costs 100 anywhere else, and ends the problem. A move costs 1.
 ///
 /// After a move the robot observes its place with an error of normal distribution, whose standard deviation
 /// is the distance from the light at 10.
@@ -22,7 +22,9 @@ pub(crate) struct LightDark {
 const MOVES: [i16; 5] = [-10, -1, 0, 1, 10];
 /// The action that stops.
 const STOP: usize = 2;
-const FARTHEST: i16 = 30;
+const FARTHEST: i16 = 60;
+/// The distance of the farthest starts.
+const FARTHEST_START: i16 = 30;
 const LIGHT: f64 = 10.0;
 const DISCOUNT: f64 = 0.95;
 /// Standard deviation of the error at the light.
@@ -119,7 +121,7 @@ impl Problem for LightDark {
     };
 
     fn start(&self, random: &mut impl Rng) -> i16 {
-        random.random_range(-FARTHEST..=FARTHEST)
+        random.random_range(-FARTHEST_START..=FARTHEST_START)
     }
 
     fn imagine(&self, _: &i16, random: &mut impl Rng) -> i16 {

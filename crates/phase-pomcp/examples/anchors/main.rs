@@ -50,7 +50,7 @@ struct Arguments {
     json: bool,
 }
 
-/// The problems. What differs between layouts of the same size is said in `layouts.rs`.
+/// The problems. `layouts.rs` tells how layouts of the same size differ.
 #[derive(Debug, Clone, Copy, ValueEnum)]
 enum Name {
     Tiger,

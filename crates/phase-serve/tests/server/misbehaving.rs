@@ -72,7 +72,7 @@ fn pings_without_end_close_the_connection() {
     player.until(|it| it["type"] == "welcome");
 }
 
-/// Whoever takes its own place again and again is asked to wait, not told that there is no game.
+/// A client that takes its own place again and again is asked to wait, not told that there is no game.
 #[test]
 fn a_player_that_comes_too_often_is_told_to_come_again() {
     let server = Running::start(settings());

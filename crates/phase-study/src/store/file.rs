@@ -122,7 +122,7 @@ fn beside(path: &Path, ending: &str) -> PathBuf {
 }
 
 /// The log of a file, if it has one of which nothing is there. A file that cannot be read is not known to
-/// have one; whoever opens it says why.
+/// have one; the function that opens it says why.
 fn missing_log(path: &Path) -> Option<PathBuf> {
     let mut head = Vec::new();
     regular::open(path).ok()?.take(20).read_to_end(&mut head).ok()?;

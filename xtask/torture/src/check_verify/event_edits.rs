@@ -44,8 +44,7 @@ pub(super) fn comment(copy: &mut EditedCopy, random: &mut Pcg64Mcg, _: &Original
     in_event(copy, random, |text, _| Some(text.replacen("\"format\"", "\"_comment\":\"\",\"format\"", 1)))
 }
 
-/// Changes a member of an event. Whoever does it writes the file as PHASE does, if the event can still be
-/// read.
+/// Changes a member of an event. The file is then written as PHASE writes it, if the event can still be read.
 pub(super) fn member(copy: &EditedCopy, random: &mut Pcg64Mcg, member: &str) -> Made {
     in_event(copy, random, |text, random| {
         let changed = alter_member(text, member, random)?;
