@@ -29,6 +29,9 @@ const CHANGE: f64 = 0.75;
 /// Duration of a step (s).
 const STEP: f64 = 0.25;
 
+/// A part of what the server says when it has no room left, which is to be tried again.
+const NO_ROOM: &str = "try again later";
+
 /// Why a player cannot play.
 pub(crate) type Failure = Box<dyn core::error::Error + Send + Sync>;
 
@@ -42,20 +45,26 @@ pub(crate) struct Shared {
     minds: bool,
     begun: Instant,
     playing: AtomicUsize,
+    refused: AtomicUsize,
     measuring: AtomicBool,
     over: AtomicBool,
 }
 
 impl Shared {
     pub(crate) fn new(scenes: Vec<Item>, parameters: MindParameters, minds: bool) -> Self {
-        let (playing, measuring, over) =
-            (AtomicUsize::new(0), AtomicBool::new(false), AtomicBool::new(false));
-        Self { scenes, parameters, minds, begun: Instant::now(), playing, measuring, over }
+        let [playing, refused] = [AtomicUsize::new(0), AtomicUsize::new(0)];
+        let [measuring, over] = [AtomicBool::new(false), AtomicBool::new(false)];
+        Self { scenes, parameters, minds, begun: Instant::now(), playing, refused, measuring, over }
     }
 
     /// Players that have left the practice.
     pub(crate) fn playing(&self) -> usize {
         self.playing.load(Ordering::Relaxed)
+    }
+
+    /// Times that the server had no room left, while one that is over had not been closed.
+    pub(crate) fn refused(&self) -> usize {
+        self.refused.load(Ordering::Relaxed)
     }
 
     /// Whether all is measured.
@@ -104,7 +113,16 @@ pub(crate) async fn play_on(
     let mut lateness = Vec::new();
     while !shared.is_over() {
         let mut players = Vec::new();
-        for (token, seed) in open_room(address, &admin, partner).await?.into_iter().zip(seed..) {
+        let tokens = match open_room(address, &admin, partner).await {
+            Ok(tokens) => tokens,
+            Err(error) if error.to_string().contains(NO_ROOM) => {
+                shared.refused.fetch_add(1, Ordering::Relaxed);
+                tokio::time::sleep(Duration::from_secs(1)).await;
+                continue;
+            }
+            Err(error) => return Err(error),
+        };
+        for (token, seed) in tokens.into_iter().zip(seed..) {
             let client = Client::join(address, token, seed, Arc::clone(&shared)).await?;
             players.push(tokio::spawn(client.play()));
         }

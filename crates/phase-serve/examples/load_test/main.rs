@@ -192,6 +192,8 @@ struct Measured {
     memory: Vec<u64>,
     /// The share of one processor that the server took.
     load: f64,
+    /// Times that a room was refused.
+    refused: usize,
 }
 
 /// Plays for the time asked for, beside the `crowd`.
@@ -239,7 +241,7 @@ async fn play(
     for room in rooms {
         lateness.extend(room.await??);
     }
-    Ok(Measured { lateness, memory, load })
+    Ok(Measured { lateness, memory, load, refused: shared.refused() })
 }
 
 fn told(process: u32, file: &str) -> String {
@@ -262,7 +264,7 @@ fn processor_time(process: u32) -> f64 {
 }
 
 fn report(options: &Options, measured: Measured) -> serde_json::Value {
-    let Measured { lateness, memory, load } = measured;
+    let Measured { lateness, memory, load, refused } = measured;
     let first = lateness.iter().map(|late| late.0).min().unwrap_or_default();
     let mut minutes = Vec::<Vec<f32>>::new();
     for &(minute, late) in &lateness {
@@ -278,7 +280,7 @@ fn report(options: &Options, measured: Measured) -> serde_json::Value {
         "partner": format!("{:?}", options.partner).to_lowercase(),
         "simulations": options.simulations, "misbehaving": options.misbehaving, "server_mib": memory,
         "server_processors": (load * 100.0).round() / 100.0,
-        "steps_seen": all.len(),
+        "steps_seen": all.len(), "rooms_refused": refused,
         "late_ms": {
             "median": quantile(&mut all, 0.5), "p90": quantile(&mut all, 0.9),
             "p99": quantile(&mut all, 0.99), "worst": quantile(&mut all, 1.0), "p99_by_minute": by_minute,
