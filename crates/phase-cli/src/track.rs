@@ -6,7 +6,7 @@ use phase_event::observed_to_json;
 use phase_files::{atomic, told};
 use phase_model::{Flip, Layout, Size};
 use phase_runs::track::{TrackRun, Tracked};
-use phase_track::{FrameMeaning, Roles, TableOptions};
+use phase_track::{FrameMeaning, Roles, Shape, ShapeTrack, TableOptions};
 use serde_json::json;
 use std::path::PathBuf;
 
@@ -29,10 +29,14 @@ pub struct TrackOptions {
     /// which is held until the next [default: what the motion looks like]
     #[arg(long, value_name = "KIND", value_parser = named(MEANINGS, name_of))]
     pub frames: Option<FrameMeaning>,
-    /// The colours of agent 0, agent 1 and the objects, as #rrggbb or by name, with commas between
-    /// [default: reddish agent and bluish object first]
-    #[arg(long, value_name = "COLOURS", value_parser = Roles::read)]
+    /// Agent 0, agent 1 and the objects, by colour (#rrggbb or a name) or number, with commas between
+    /// [default: reddish agent and bluish object first; of other videos, the shapes that move farthest]
+    #[arg(long, value_name = "BODIES", value_parser = Roles::read)]
     pub map: Option<Roles>,
+    /// A table for the paths (pixels) of all shapes of a video that shows no arena with agents; `track` reads
+    /// it again
+    #[arg(long, value_name = "FILE")]
+    pub shapes: Option<PathBuf>,
     /// Meaning of tables.
     #[command(flatten)]
     pub table: TableArguments,
@@ -161,6 +165,13 @@ pub fn run(arguments: &TrackOptions) -> Result<(), CliError> {
         tracked.iter().map(|it| (it.id.as_str(), &it.observed, Some(&it.tracking))).collect();
     let text = observed_to_json(&events).map_err(phase_runs::error::RunError::from)?;
     atomic::write(&arguments.out, text.as_bytes()).map_err(CliError::Output)?;
+    if let Some(file) = &arguments.shapes {
+        let [Tracked { shapes: Some(shapes), .. }] = &tracked[..] else {
+            let rule = "--shapes: needs one video that shows no arena with agents";
+            return Err(CliError::Usage(rule.into()));
+        };
+        atomic::write(file, shapes.table().as_bytes()).map_err(CliError::Output)?;
+    }
     let lines: String = tracked.iter().map(line).collect();
     let report: Vec<_> = tracked.iter().map(report).collect();
     let file = arguments.out.display();
@@ -171,8 +182,11 @@ pub fn run(arguments: &TrackOptions) -> Result<(), CliError> {
 
 /// The errors with which an event was measured, for people.
 fn line(tracked: &Tracked) -> String {
-    let Tracked { id, observed, tracking } = tracked;
+    let Tracked { id, observed, tracking, shapes } = tracked;
     let noise = tracking.noise;
+    if let Some(shapes) = shapes {
+        return foreign(tracked, shapes);
+    }
     let objects = observed.object_sizes().len();
     let layout = observed.layout();
     let flip = layout.flip().map_or_else(String::new, |flip| format!(".{}", u8::from(flip)));
@@ -189,10 +203,45 @@ fn line(tracked: &Tracked) -> String {
     )
 }
 
+/// The shapes of a video without an arena and agents, for people.
+fn foreign(tracked: &Tracked, found: &ShapeTrack) -> String {
+    let Tracked { id, observed, tracking, .. } = tracked;
+    let mut text = format!(
+        "{id}: {} steps from {} frames at {:.1} a second, not of PHASE's agents but of other shapes:\n",
+        observed.steps(),
+        tracking.frames,
+        tracking.frame_rate,
+    );
+    for (k, shape) in found.shapes.iter().enumerate() {
+        let Shape { colour: [red, green, blue], radius, path, seen, .. } = shape;
+        let start = path.first().copied().unwrap_or_default();
+        text += &format!(
+            "  {} #{red:02x}{green:02x}{blue:02x}, at first at ({:.0}, {:.0}), {radius:.0} pixels in radius, seen in {:.0} % of frames\n",
+            k + 1,
+            start.x,
+            start.y,
+            100.0 * seen,
+        );
+    }
+    for sentence in tracking.missing.sentences() {
+        text += &format!("  {sentence}\n");
+    }
+    text
+}
+
 /// The errors with which an event was measured, for programs.
 fn report(tracked: &Tracked) -> serde_json::Value {
-    let Tracked { id, observed, tracking } = tracked;
+    let Tracked { id, observed, tracking, shapes } = tracked;
+    let shapes = shapes.iter().flat_map(|found| &found.shapes);
+    let shapes: Vec<_> = shapes
+        .map(|Shape { colour, radius, path, seen, .. }| {
+            let start = path.first().map(|place| place.to_array());
+            json!({ "colour": colour, "radius": radius, "start": start, "seen": seen })
+        })
+        .collect();
     json!({
+        "missing": tracking.missing,
+        "shapes": shapes,
         "id": id,
         "steps": observed.steps(),
         "frames": tracking.frames,

@@ -64,7 +64,7 @@ pub use read::{LONGEST_ID, check_id, from_json, is_labelled, parse, parse_observ
 pub use recording::{Controller, Recording, Recovered, SimulationRecord};
 pub use subgoals::subgoal_of;
 pub use thought::{ActionEvaluation, BelievedIntent, SubgoalValue, Thought};
-pub use tracking::{Noise, Tracking};
+pub use tracking::{Missing, Noise, Tracking};
 pub use trajectory::{COLUMNS, Row, SUBSTEP_COLUMNS, SubstepRow, Trajectory, substep_row};
 pub use warning::EventWarning;
 pub use write::{FILE_FORMAT, observed_to_json, pairs_in_contact, to_json};

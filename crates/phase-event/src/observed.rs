@@ -1,7 +1,7 @@
 //! An event as observed by a viewer: walls, sizes and motion, without labels.
 
 use crate::{
-    Noise,
+    Missing, Noise, Tracking,
     trajectory::{Trajectory, row_of},
 };
 use phase_model::{
@@ -36,6 +36,7 @@ pub struct ObservedEvent {
     object_sizes: Vec<Size>,
     rows: Vec<[Body; MAX_ENTITIES]>,
     noise: Option<Noise>,
+    missing: Missing,
 }
 
 impl ObservedEvent {
@@ -59,7 +60,9 @@ impl ObservedEvent {
         let bodies = AGENT_COUNT + object_sizes.len();
         match rows.iter().position(|row| !row[..bodies].iter().all(Body::is_finite)) {
             Some(row) => Err(ObservedError::NotFinite(row)),
-            None => Ok(Self { layout, agent_sizes, object_sizes, rows, noise: None }),
+            None => {
+                Ok(Self { layout, agent_sizes, object_sizes, rows, noise: None, missing: Missing::default() })
+            }
         }
     }
 
@@ -78,6 +81,24 @@ impl ObservedEvent {
     #[must_use]
     pub fn with_noise(self, noise: Option<Noise>) -> Self {
         Self { noise, ..self }
+    }
+
+    /// The event as it was measured: with the errors of its rows, and what was not to be seen.
+    #[must_use]
+    pub fn with_tracking(self, tracking: &Tracking) -> Self {
+        self.with_noise(Some(tracking.noise)).with_missing(tracking.missing)
+    }
+
+    /// The event with what was not to be seen.
+    #[must_use]
+    pub fn with_missing(self, missing: Missing) -> Self {
+        Self { missing, ..self }
+    }
+
+    /// What was not to be seen; nothing for events that were not read from a video.
+    #[must_use]
+    pub const fn missing(&self) -> Missing {
+        self.missing
     }
 
     /// The errors of rows, if they were measured.

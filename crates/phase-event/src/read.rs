@@ -201,7 +201,11 @@ fn observed(
         in_event(FieldError { field: "trajectory".into(), rule: format!("cannot be observed: {error}") })
     })?;
     let measured = tracking(event).map_err(in_event)?;
-    Ok((id, seen.with_noise(measured.map(|measured| measured.noise))))
+    let seen = match measured {
+        Some(measured) => seen.with_tracking(&measured),
+        None => seen,
+    };
+    Ok((id, seen))
 }
 
 /// The scene, which starts at the first row of the trajectory, and the trajectory.

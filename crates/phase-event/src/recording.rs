@@ -111,7 +111,10 @@ impl Recording {
     /// [`ObservedError`] for recordings that cannot occur in a file.
     pub fn observed(&self) -> Result<ObservedEvent, ObservedError> {
         let rows = self.trajectory.states().iter().map(|state| state.bodies).collect();
-        let noise = self.tracking.as_ref().map(|tracking| tracking.noise);
-        Ok(ObservedEvent::in_scene(&self.scene, rows)?.with_noise(noise))
+        let observed = ObservedEvent::in_scene(&self.scene, rows)?;
+        Ok(match &self.tracking {
+            Some(tracking) => observed.with_tracking(tracking),
+            None => observed,
+        })
     }
 }

@@ -1,6 +1,6 @@
 //! The functions and classes that JavaScript calls. Errors are exceptions with the sentence as their message.
 
-use crate::{PageObserver, PageSimulation, packed, scenes};
+use crate::{PageObserver, PageSimulation, PageTracker, packed, scenes};
 use phase_model::{AGENT_COUNT, Action, AgentId};
 use wasm_bindgen::prelude::*;
 
@@ -68,11 +68,11 @@ pub fn start_state(scene: &str) -> Result<Vec<f32>, JsError> {
 
 /// Events of a file.
 #[wasm_bindgen]
-pub struct Events(Vec<phase_event::Recording>);
+pub struct Events(Vec<scenes::PageEvent>);
 
 #[wasm_bindgen]
 impl Events {
-    /// Reads a file in the format `phase-events/1`.
+    /// Reads a file in the format `phase-events/1`, with labels or without.
     #[wasm_bindgen(constructor)]
     pub fn new(text: &str) -> Result<Events, JsError> {
         scenes::events(text).map(Self).map_err(raise)
@@ -86,26 +86,51 @@ impl Events {
 
     /// Id of an event.
     pub fn id(&self, index: usize) -> Option<String> {
-        self.0.get(index).map(|recording| recording.id.clone())
+        self.0.get(index).map(|event| event.id.clone())
+    }
+
+    /// Whether an event has labels.
+    pub fn labelled(&self, index: usize) -> bool {
+        self.0.get(index).is_some_and(|event| event.labelled)
     }
 
     /// Scene of an event, as JSON.
     pub fn scene(&self, index: usize) -> Option<String> {
-        self.0.get(index).and_then(|recording| recording.scene.to_json().ok())
+        self.0.get(index).map(|event| event.scene.clone())
     }
 
     /// The states of an event, packed, to be shown one after the other; see [`scenes::frames`].
     pub fn frames(&self, index: usize) -> Option<Vec<f32>> {
-        self.0.get(index).map(scenes::frames)
+        self.0.get(index).map(|event| event.frames.clone())
     }
 
     /// The rows that an observer is shown, packed.
     pub fn rows(&self, index: usize) -> Option<Vec<f32>> {
-        self.0.get(index).map(|recording| {
-            let mut numbers = Vec::new();
-            recording.trajectory.states().iter().for_each(|state| packed::push(state, &mut numbers));
-            numbers
-        })
+        self.0.get(index).map(|event| event.rows.clone())
+    }
+}
+
+/// Reads a video picture by picture; a [`PageTracker`] for JavaScript.
+#[wasm_bindgen]
+#[derive(Default)]
+pub struct VideoTracker(PageTracker);
+
+#[wasm_bindgen]
+impl VideoTracker {
+    /// A tracker that has seen nothing.
+    #[wasm_bindgen(constructor)]
+    pub fn new() -> VideoTracker {
+        Self::default()
+    }
+
+    /// Takes the next picture of a pass; see [`PageTracker::push`].
+    pub fn push(&mut self, width: usize, height: usize, rgba: &[u8], seconds: f64) -> Result<(), JsError> {
+        self.0.push(width, height, rgba, seconds).map_err(raise)
+    }
+
+    /// Ends a pass; see [`PageTracker::finish`].
+    pub fn finish(&mut self, id: &str) -> Result<Option<String>, JsError> {
+        self.0.finish(id).map_err(raise)
     }
 }
 
@@ -168,6 +193,12 @@ impl Observer {
     #[wasm_bindgen(constructor)]
     pub fn new(scene: &str, row: &[f32], decisions: usize) -> Result<Observer, JsError> {
         PageObserver::new(scene, row, decisions).map(Self).map_err(raise)
+    }
+
+    /// Begins with the first row of an event of a file; see [`PageObserver::of_event`].
+    #[wasm_bindgen(js_name = ofEvent)]
+    pub fn of_event(file: &str, index: usize, decisions: usize) -> Result<Observer, JsError> {
+        PageObserver::of_event(file, index, decisions).map(Self).map_err(raise)
     }
 
     /// Watches the next row and answers, as JSON; see [`PageObserver::push`].

@@ -1,7 +1,7 @@
 //! PHASE in a browser: what the playground's pages call, as WebAssembly.
 //!
 //! A [`PageSimulation`] simulates a scene step by step, with minds or people's actions; a [`PageObserver`]
-//! infers goals and relation while an event runs; a [`Picture`] draws as the videos are drawn; [`scenes`]
+//! infers goals and relation while an event runs; a [`PageTracker`] reads videos; a [`Picture`] draws as the videos are drawn; [`scenes`]
 //! checks, describes and samples scenes, and reads files of events. Everything is exchanged as JSON in the
 //! formats of `docs/reference/formats/overview.md`, or as 32-bit floats where there is one for each body and
 //! step ([`packed`]).
@@ -32,10 +32,12 @@ pub mod packed;
 pub mod picture;
 pub mod scenes;
 pub mod simulation;
+pub mod video;
 
 pub use observer::PageObserver;
 pub use picture::Picture;
 pub use simulation::PageSimulation;
+pub use video::PageTracker;
 
 /// The generator named in files.
 const GENERATOR: &str = concat!("phase ", env!("CARGO_PKG_VERSION"));

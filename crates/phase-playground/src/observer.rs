@@ -29,8 +29,22 @@ impl PageObserver {
         let scene = scenes::read(scene)?;
         let first = packed::states(row).next().ok_or("the first row is missing")?;
         let observed = ObservedEvent::in_scene(&scene, vec![first.bodies]).map_err(sentence)?;
+        Self::watching(&observed, decisions)
+    }
+
+    /// Begins with the first row of an event of a file, whose labels may be absent and are not looked at.
+    ///
+    /// # Errors
+    /// A sentence for an invalid file, or one without such an event.
+    pub fn of_event(file: &str, index: usize, decisions: usize) -> Result<Self, String> {
+        let events = phase_event::parse_observed(file.as_bytes()).map_err(sentence)?;
+        let (_, observed) = events.get(index).ok_or("there is no such event")?;
+        Self::watching(&observed.prefix(0), decisions)
+    }
+
+    fn watching(observed: &ObservedEvent, decisions: usize) -> Result<Self, String> {
         let simple = Simple::bundled().map_err(sentence)?;
-        let mut observer = simple.observer(&observed, SEED).map_err(sentence)?;
+        let mut observer = simple.observer(observed, SEED).map_err(sentence)?;
         observer.set_budget(Budget { decisions: Some(decisions) });
         Ok(Self { simple, observer })
     }

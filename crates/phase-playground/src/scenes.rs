@@ -1,12 +1,13 @@
 //! Scenes and files of events.
 
 use crate::{packed, sentence};
-use phase_event::Recording;
+use phase_event::{ObservedEvent, Recording};
 use phase_model::{
-    AgentId, Entity, EventKind, Goal, LandmarkId, ObjectId, Scene, Sign, State, arena, layout::USED_BASES,
-    words::Names,
+    AGENT_COUNT, AgentId, Attitude, Entity, EventKind, Goal, LandmarkId, ObjectId, Scene, Sign, State,
+    Strength, arena, layout::USED_BASES, words::Names,
 };
 use phase_sampler::{Variant, sample_named};
+use phase_simple::Hypothesis;
 use serde_json::{Value, json};
 
 /// Reads and checks a scene.
@@ -97,12 +98,50 @@ pub fn start(scene: &str) -> Result<Vec<f32>, String> {
     Ok(numbers)
 }
 
-/// The events of a file in the format `phase-events/1`.
+/// An event of a file, ready to be shown.
+#[derive(Clone, Debug)]
+pub struct PageEvent {
+    /// Its name.
+    pub id: String,
+    /// Its scene, as JSON. Without labels, goals in it are made up so that it can be drawn.
+    pub scene: String,
+    /// Whether it has labels.
+    pub labelled: bool,
+    /// States to be shown one after the other, packed; see [`frames`].
+    pub frames: Vec<f32>,
+    /// The rows that an observer is shown, packed.
+    pub rows: Vec<f32>,
+}
+
+/// The events of a file in the format `phase-events/1`, with labels or without.
 ///
 /// # Errors
 /// A sentence that names the field and the rule.
-pub fn events(text: &str) -> Result<Vec<Recording>, String> {
-    phase_event::from_json(text).map_err(sentence)
+pub fn events(text: &str) -> Result<Vec<PageEvent>, String> {
+    let packed = |states: &[State]| {
+        let mut numbers = Vec::new();
+        states.iter().for_each(|state| packed::push(state, &mut numbers));
+        numbers
+    };
+    if !phase_event::is_labelled(text.as_bytes()) {
+        let observed = phase_event::parse_observed(text.as_bytes()).map_err(sentence)?;
+        let unlabelled = |(id, event): (String, ObservedEvent)| {
+            let touch = |agent: AgentId| Goal::Touch { agent, other: agent.other(), sign: Sign::Positive };
+            let goals = AgentId::ALL.map(touch);
+            let strengths = [Strength::Fair; AGENT_COUNT];
+            let scene = Hypothesis::new(goals, [Attitude::Neutral; AGENT_COUNT], strengths).scene(&event);
+            let rows: Vec<State> = event.rows().iter().map(|row| State::new(*row)).collect();
+            let scene = scene.to_json().map_err(sentence)?;
+            Ok(PageEvent { id, scene, labelled: false, frames: packed(&event.frames()), rows: packed(&rows) })
+        };
+        return observed.into_iter().map(unlabelled).collect();
+    }
+    let labelled = |recording: Recording| {
+        let scene = recording.scene.to_json().map_err(sentence)?;
+        let rows = packed(&recording.trajectory.states());
+        Ok(PageEvent { scene, labelled: true, frames: frames(&recording), rows, id: recording.id })
+    };
+    phase_event::from_json(text).map_err(sentence)?.into_iter().map(labelled).collect()
 }
 
 /// The frames of an event, packed: its substeps, or for a recording, which has none, each row five times.

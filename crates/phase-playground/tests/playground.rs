@@ -5,7 +5,7 @@ use phase_eval::goals::Answer;
 use phase_event::{Recogniser, Recording, from_json, to_json};
 use phase_model::{Action, AgentId, Scene};
 use phase_perception::observe;
-use phase_playground::{PageObserver, PageSimulation, Picture, packed, scenes};
+use phase_playground::{PageObserver, PageSimulation, PageTracker, Picture, packed, scenes};
 use phase_render::{Overlay, Palette, SceneRenderer, Style};
 use phase_sim::{SimulationSettings, simulate};
 use phase_simple::Simple;
@@ -43,7 +43,8 @@ fn a_show_is_the_event_that_is_simulated() {
     let text = to_json(&[recording]).unwrap();
     assert_eq!(show.document("it").unwrap(), text);
     let read = scenes::events(&text).unwrap();
-    assert_eq!(scenes::frames(&read[0]), expected);
+    assert_eq!(read[0].frames, expected);
+    assert!(read[0].labelled);
 
     let report: Value = serde_json::from_str(&show.report()).unwrap();
     assert_eq!(report["step"], 6);
@@ -165,4 +166,75 @@ fn goals_on_offer_are_goals() {
         scene["agents"][0]["goal"] = choice["goal"].clone();
         scenes::describe(&scene.to_string()).unwrap();
     }
+}
+
+/// A video that is drawn here is read in one pass, and its document opens as an event without labels.
+#[test]
+fn a_video_becomes_an_event_without_labels() {
+    let scene = Scene::from_json(&scene()).unwrap();
+    let renderer = SceneRenderer::new(&scene.physics(), Style::default()).unwrap();
+    let [width, height] = [renderer.width(), renderer.height()].map(|side| side as usize);
+    let mut tracker = PageTracker::default();
+    for frame in 0..12 {
+        let mut state = scene.initial_state();
+        state.bodies[0].position.y += 0.02 * frame as f32;
+        let picture = renderer.frame(&state, None);
+        tracker.push(width, height, picture.rgba(), f64::from(frame) / 20.0).unwrap();
+    }
+    let answer: Value = serde_json::from_str(&tracker.finish("a film").unwrap().unwrap()).unwrap();
+    let document = answer["document"].as_str().unwrap();
+    let events = scenes::events(document).unwrap();
+    assert_eq!((events.len(), events[0].id.as_str(), events[0].labelled), (1, "a-film", false));
+    let found = Scene::from_json(&events[0].scene).unwrap();
+    assert_eq!(found.layout.walls(), scene.layout.walls());
+    let bodies = answer["bodies"].as_array().unwrap();
+    assert_eq!(bodies.len(), 2 + scene.objects.len());
+    // Where the first agent is drawn at first.
+    let drawn = renderer.pixel(scene.agents[0].start.position);
+    let path = bodies.iter().map(|body| body["path"][0].as_array().unwrap());
+    let off = path
+        .map(|at| (at[0].as_f64().unwrap() as f32 - drawn.x).hypot(at[1].as_f64().unwrap() as f32 - drawn.y));
+    assert!(off.fold(f32::INFINITY, f32::min) < 1.0);
+    let mut observer = PageObserver::of_event(document, 0, 1).unwrap();
+    let rows = &events[0].rows;
+    assert!(observer.push(&rows[packed::STATE..]).unwrap().contains("\"relation\""));
+    assert!(tracker.finish("again").is_err());
+}
+
+/// Shapes without an arena take two more passes.
+#[test]
+fn a_video_of_shapes_is_watched_three_times() {
+    let picture = |frame: usize| -> Vec<u8> {
+        let pixel = |k: usize| {
+            let (x, y) = (k % 120, k / 120);
+            let is_in =
+                |left: usize, top: usize| (left..left + 14).contains(&x) && (top..top + 14).contains(&y);
+            let colour = if is_in(10 + 2 * frame, 20) { [200, 40, 40] } else { [240; 3] };
+            if is_in(80, 20 + frame) { [30, 60, 200, 255] } else { [colour[0], colour[1], colour[2], 255] }
+        };
+        (0..120 * 90).flat_map(pixel).collect()
+    };
+    let mut tracker = PageTracker::default();
+    let mut passes = 0;
+    let answer = loop {
+        for frame in 0..20 {
+            tracker.push(120, 90, &picture(frame), frame as f64 / 20.0).unwrap();
+        }
+        passes += 1;
+        if let Some(answer) = tracker.finish("").unwrap() {
+            break serde_json::from_str::<Value>(&answer).unwrap();
+        }
+    };
+    assert_eq!(passes, 3);
+    assert_eq!(answer["bodies"].as_array().unwrap().len(), 2);
+    assert_eq!(answer["bodies"][0]["path"][10][0].as_f64().unwrap().round(), 37.0);
+    assert!(answer["notes"].as_array().unwrap().len() >= 2);
+    let mut blank = PageTracker::default();
+    let error = loop {
+        (0..10).try_for_each(|frame| blank.push(64, 64, &[255; 4 * 64 * 64], f64::from(frame))).unwrap();
+        if let Err(error) = blank.finish("blank") {
+            break error;
+        }
+    };
+    assert!(error.contains("shows no arena") && error.contains("nothing moves"), "{error}");
 }

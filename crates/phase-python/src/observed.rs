@@ -2,13 +2,13 @@
 
 use crate::{arrays::reading, error::raise, event::Event, scene::Scene};
 use numpy::{PyArray1, PyArray2, PyArray3, PyReadonlyArray4, PyUntypedArrayMethods};
-use phase_event::{COLUMNS, Noise, ObservedEvent, check_id, parse_observed};
+use phase_event::{COLUMNS, Missing, Noise, ObservedEvent, check_id, parse_observed};
 use phase_files::{FileError, Problem, json};
 use phase_model::{
     AGENT_COUNT, Body, Flip, Layout, LayoutError, MAX_ENTITIES, MAX_OBJECTS, Size, Vec2, arena,
 };
 use phase_runs::track::TrackRun;
-use phase_track::{Picture, TableOptions, Tracker};
+use phase_track::{Picture, Roles, TableOptions, Tracker};
 use pyo3::{PyTypeInfo, prelude::*};
 use std::{path::PathBuf, sync::Arc};
 
@@ -26,14 +26,18 @@ pub(crate) const ROW_COLUMNS: usize = COLUMNS.len();
 type LayoutNumbers = (u64, Option<u64>);
 /// Standard deviations of position (u), velocity (u/s) and angle (rad).
 type NoiseNumbers = (f32, f32, f32);
+/// Whether forms, walls and landmarks were missing, and the number of bodies that were left out.
+type MissingParts = (bool, bool, bool, u32);
 
 #[pymethods]
 impl Observed {
     /// An event of a layout, of agents and objects of these size levels, and of these rows, (steps + 1,
     /// entities, 5), columns x, y (u), vx, vy (u/s), angle (rad). `PhaseError` names the part and the rule.
-    /// `noise` has the standard deviations of position (u), velocity (u/s) and angle (rad), if there are any.
+    /// `noise` has the standard deviations of position (u), velocity (u/s) and angle (rad), if there are any,
+    /// and `missing` what was not to be seen: forms, walls, landmarks, and a number of bodies.
     #[new]
-    #[pyo3(signature = (id, layout, agent_sizes, object_sizes, rows, noise = None))]
+    #[pyo3(signature = (id, layout, agent_sizes, object_sizes, rows, noise = None, missing = None))]
+    #[allow(clippy::too_many_arguments)]
     fn new(
         id: String,
         layout: LayoutNumbers,
@@ -41,6 +45,7 @@ impl Observed {
         object_sizes: Vec<u8>,
         rows: &Bound<'_, PyArray3<f32>>,
         noise: Option<NoiseNumbers>,
+        missing: Option<MissingParts>,
     ) -> PyResult<Self> {
         check_id(&id).map_err(|rule| raise(format!("id {rule}, not {id:?}")))?;
         let (base, flip) = layout;
@@ -60,7 +65,10 @@ impl Observed {
         let rows = read_rows(rows, AGENT_COUNT + objects.len())?;
         let event = ObservedEvent::new(layout, [size(first)?, size(second)?], objects, rows);
         let noise = noise.map(|(position, velocity, angle)| Noise { position, velocity, angle });
-        Ok(Self { id, event: Arc::new(event.map_err(raise)?.with_noise(noise)) })
+        let event = event.map_err(raise)?.with_noise(noise);
+        let missing =
+            missing.map(|(forms, walls, landmarks, bodies)| Missing { forms, walls, landmarks, bodies });
+        Ok(Self { id, event: Arc::new(event.with_missing(missing.unwrap_or_default())) })
     }
 
     /// The part of an event that a viewer sees.
@@ -90,15 +98,16 @@ impl Observed {
         Ok(read.into_iter().map(|(id, event)| Self { id, event: Arc::new(event) }).collect())
     }
 
-    /// The event that a video, a folder of pictures at this rate, or a table shows.
+    /// The event that a video, a folder of pictures at this rate, or a table shows; `map` names the bodies.
     #[staticmethod]
-    fn track(py: Python<'_>, path: PathBuf, frame_rate: f64) -> PyResult<Self> {
+    fn track(py: Python<'_>, path: PathBuf, frame_rate: f64, map: Option<&str>) -> PyResult<Self> {
+        let roles = map.map(Roles::read).transpose().map_err(|rule| raise(format!("map: {rule}")))?;
         let run = TrackRun {
             input: path,
             id: None,
             frame_rate,
             meaning: None,
-            roles: None,
+            roles,
             table: TableOptions::default(),
         };
         let tracked = py.detach(|| run.read()).map_err(raise)?;
@@ -128,17 +137,34 @@ impl Observed {
         self.event.noise().map(|noise| (noise.position, noise.velocity, noise.angle))
     }
 
+    /// What cannot be judged of the event, each as a sentence.
+    #[getter]
+    fn not_judged(&self) -> Vec<String> {
+        self.event.missing().sentences()
+    }
+
     #[allow(clippy::type_complexity)]
     fn __reduce__<'py>(
         &self,
         py: Python<'py>,
     ) -> PyResult<(
         Bound<'py, PyAny>,
-        (String, LayoutNumbers, [u8; AGENT_COUNT], Vec<u8>, Bound<'py, PyArray3<f32>>, Option<NoiseNumbers>),
+        (
+            String,
+            LayoutNumbers,
+            [u8; AGENT_COUNT],
+            Vec<u8>,
+            Bound<'py, PyArray3<f32>>,
+            Option<NoiseNumbers>,
+            MissingParts,
+        ),
     )> {
         let agents = self.event.agent_sizes().map(Size::level);
         let objects = self.event.object_sizes().iter().map(|size| size.level()).collect();
-        let arguments = (self.id.clone(), self.layout(), agents, objects, self.trajectory(py)?, self.noise());
+        let Missing { forms, walls, landmarks, bodies } = self.event.missing();
+        let missing = (forms, walls, landmarks, bodies);
+        let rows = self.trajectory(py)?;
+        let arguments = (self.id.clone(), self.layout(), agents, objects, rows, self.noise(), missing);
         Ok((Self::type_object(py).into_any(), arguments))
     }
 

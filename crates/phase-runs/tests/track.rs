@@ -47,7 +47,7 @@ fn run(input: &Path) -> TrackRun {
     }
 }
 
-fn compare(Tracked { id, observed, tracking }: &Tracked) {
+fn compare(Tracked { id, observed, tracking, .. }: &Tracked) {
     assert_eq!((observed.steps(), observed.object_sizes().len()), (4, 1));
     assert_eq!(observed.layout().walls(), physics().walls);
     for (t, row) in observed.rows().iter().enumerate().skip(1) {

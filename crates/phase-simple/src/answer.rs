@@ -24,6 +24,9 @@ pub struct Inference {
     /// Hypotheses that Algorithm 2 simulated, completely or until rejection was certain; 0 for inverse
     /// planning.
     pub simulated: usize,
+    /// Whether the motion obeys another physics or shows other bodies, so that no minds were simulated: the
+    /// posterior is a mixture of the intent network's, that of distances alone, and the prior.
+    pub foreign: bool,
 }
 
 impl Inference {
@@ -71,6 +74,16 @@ pub(crate) fn mixture(kinds: &[KindEvidence]) -> (Posterior, Vec<f64>) {
     (Posterior::new(weighted), shares.iter().map(|share| libm::exp(*share)).collect())
 }
 
+/// The answer to motion that minds and physics of PHASE cannot explain.
+pub(crate) fn foreign(
+    agents: ImaginedAgents,
+    posterior: Posterior,
+    impression: Option<Impression>,
+) -> Inference {
+    let minds = vec![MindPosterior { agents, probability: 1.0, posterior: posterior.clone() }];
+    Inference { posterior, minds, impression, accepted: Vec::new(), simulated: 0, foreign: true }
+}
+
 /// The answer of all kinds of minds together.
 pub(crate) fn average(
     agents: &[ImaginedAgents],
@@ -84,5 +97,5 @@ pub(crate) fn average(
         posterior: Posterior::new(kind.joint),
     };
     let minds = agents.iter().zip(kinds).zip(probabilities).map(of_kind).collect();
-    Inference { posterior, minds, impression, accepted: Vec::new(), simulated: 0 }
+    Inference { posterior, minds, impression, accepted: Vec::new(), simulated: 0, foreign: false }
 }

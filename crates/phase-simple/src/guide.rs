@@ -85,6 +85,11 @@ impl Guess {
         kept
     }
 
+    /// Q of every hypothesis.
+    pub(crate) const fn posterior(&self) -> &Posterior {
+        &self.posterior
+    }
+
     /// The likeliest goals.
     pub(crate) fn goals(&self) -> Option<[Goal; AGENT_COUNT]> {
         self.posterior.hypotheses.first().map(|(likeliest, _)| likeliest.goals)

@@ -95,7 +95,8 @@ fn run_chains(
     let posterior = Posterior::new(particles);
     let minds =
         vec![MindPosterior { agents: *prepared.agents(), probability: 1.0, posterior: posterior.clone() }];
-    Ok(Some(Inference { posterior, minds, impression: None, accepted, simulated: simulations.count() }))
+    let simulated = simulations.count();
+    Ok(Some(Inference { posterior, minds, impression: None, accepted, simulated, foreign: false }))
 }
 
 /// Prepares an event and infers what explains it, without a guide: [`PreparedEvent::new`] and [`infer`] in

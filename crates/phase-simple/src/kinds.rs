@@ -1,9 +1,9 @@
 //! Inverse planning with every kind of minds, and what the guide said while the event was watched.
 
 use crate::{
-    AlternativeAgents, Budget, Guidance, Guide, ImaginedAgents, Intent, InversePlanningSettings, Proposal,
-    UniformStrength,
-    answer::{Inference, KindEvidence, average, log_evidence, mixture},
+    AlternativeAgents, Budget, Guidance, Guide, ImaginedAgents, Intent, InversePlanningSettings, Posterior,
+    Proposal, UniformStrength,
+    answer::{self, Inference, KindEvidence, average, log_evidence, mixture},
     generative::PreparedEvent,
     guide::Guess,
     impression::Impression,
@@ -50,6 +50,10 @@ impl GuideCourse {
 
 /// Refinement passes: how often the intents are re-evaluated with an updated goal of the other agent.
 const REFINEMENT_PASSES: usize = 2;
+
+/// Shares of the intent network and of distances in the answer to motion that PHASE cannot explain. The prior
+/// has the rest, so that no answer is certain.
+const FOREIGN_SHARES: [f64; 2] = [0.4, 0.4];
 
 /// The findings of a planner about all intents that it was asked for.
 #[derive(Clone, Debug)]
@@ -185,6 +189,11 @@ impl Planners {
         let strengths = prepared.motion().strengths();
         let guess = |row| guide.map(|guide| guide.guess(row, objects, strengths));
         let last = guess(observed.steps());
+        if prepared.motion().is_foreign() || observed.missing().forms {
+            let posterior = foreign(&observed, gamma, last.as_ref());
+            let impression = Impression::of(&observed, [posterior.clone()]);
+            return Ok(Some(answer::foreign(self.agents[0], posterior, impression)));
+        }
         // The goal that each agent attributes to the other if it is not social.
         let assumed = last.as_ref().and_then(Guess::goals).unwrap_or_else(|| {
             let cue = Proposal::new(&observed, 0..=observed.steps(), gamma, &UniformStrength);
@@ -233,12 +242,23 @@ impl Planners {
         let first = &self.planners[0];
         let course = (1..=first.decisions()).map(|decisions| {
             let guess = guess(first.row_after(decisions));
-            mixture(&self.evidence(decisions, guess.as_ref())).0
+            mixture(&self.evidence(decisions, guess.as_ref())).0.judged(&observed)
         });
         let impression = Impression::of(&observed, course);
         let evidence = self.evidence(first.decisions(), last.as_ref());
-        Ok(Some(average(&self.agents, evidence, impression)))
+        let inference = average(&self.agents, evidence, impression);
+        Ok(Some(Inference { posterior: inference.posterior.judged(&observed), ..inference }))
     }
+}
+
+/// What the intent network and distances say of motion that the minds cannot have made.
+fn foreign(observed: &ObservedEvent, gamma: f64, guess: Option<&Guess>) -> Posterior {
+    let cue = |gamma| Proposal::new(observed, 0..=observed.steps(), gamma, &UniformStrength).posterior();
+    let [of_network, of_distances] = FOREIGN_SHARES;
+    let of_network = if guess.is_some() { of_network } else { 0.0 };
+    let mut parts = vec![(cue(gamma), of_distances), (cue(0.0), 1.0 - of_network - of_distances)];
+    parts.extend(guess.map(|guess| (guess.posterior().clone(), of_network)));
+    Posterior::mixture(&parts).judged(observed)
 }
 
 #[cfg(test)]

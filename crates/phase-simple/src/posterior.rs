@@ -1,6 +1,7 @@
 //! From weighted hypotheses to marginals over goals, attitudes and relations.
 
 use crate::Hypothesis;
+use phase_event::ObservedEvent;
 use phase_model::{
     AGENT_COUNT, AgentId, Attitude, Goal, Judgement, Relation, RelationProbabilities, RoleProbabilities,
 };
@@ -32,6 +33,30 @@ impl Posterior {
         let mut hypotheses: Vec<_> = weights.into_iter().collect();
         hypotheses.sort_by(|a, b| b.1.total_cmp(&a.1));
         Self { hypotheses }
+    }
+
+    /// The weighted mean of some posteriors; weights sum to 1. Strengths are those of the first.
+    pub(crate) fn mixture(parts: &[(Self, f64)]) -> Self {
+        let strengths = parts.iter().find_map(|(part, _)| part.hypotheses.first()).map(|it| it.0.strengths);
+        let all = parts.iter().flat_map(|(part, share)| {
+            let of_share = move |(hypothesis, weight): &(Hypothesis, f64)| {
+                let strengths = strengths.unwrap_or(hypothesis.strengths);
+                (Hypothesis { strengths, ..*hypothesis }, libm::log(share * weight))
+            };
+            part.hypotheses.iter().map(of_share)
+        });
+        Self::new(all)
+    }
+
+    /// The posterior given that goals can be judged: without those at landmarks if none was seen.
+    #[must_use]
+    pub fn judged(self, observed: &ObservedEvent) -> Self {
+        let elsewhere = |it: &(Hypothesis, f64)| it.0.goals.iter().all(|goal| goal.landmark().is_none());
+        if !observed.missing().landmarks || !self.hypotheses.iter().any(elsewhere) {
+            return self;
+        }
+        let kept = self.hypotheses.into_iter().filter(elsewhere);
+        Self::new(kept.map(|(hypothesis, weight)| (hypothesis, libm::log(weight))))
     }
 
     /// The total variation of two posteriors, 0 to 1: the greatest difference in the probability of anything.

@@ -1,9 +1,9 @@
 //! Whole inferences, on events whose labels are known only to the test.
 
-use phase_event::{Event, ObservedEvent, Recording};
+use phase_event::{Event, Missing, Noise, ObservedEvent, Recording, Tracking};
 use phase_minds::MindParameters;
 use phase_model::{
-    AgentId, Attitude, Goal, LandmarkId, Layout, ObjectId, Relation,
+    AgentId, Attitude, Goal, LandmarkId, Layout, ObjectId, Relation, Vec2,
     random::{Purpose, stream},
 };
 use phase_sampler::{Request, Starts, Variant, sample};
@@ -227,4 +227,62 @@ fn the_truth_deviates_least() {
     let hypothesis = phase_simple::Hypothesis::new(swapped, [Attitude::Neutral; 2], strengths);
     let part = prepared.simulate(&hypothesis, Some(10), truth).expect("is sound");
     assert!(part.len() < seen.steps() && part.iter().sum::<f64>() > truth);
+}
+
+/// A track of a video: rows with errors of a well-read picture.
+fn tracked(observed: ObservedEvent, missing: Missing) -> ObservedEvent {
+    let noise = Noise { position: 0.01, velocity: 0.17, angle: 0.01 };
+    let tracking = Tracking {
+        noise,
+        frames: 100,
+        frame_rate: 20.0,
+        straight: true,
+        hidden: 0.0,
+        missing,
+        deviations: Vec::new(),
+    };
+    observed.with_tracking(&tracking)
+}
+
+/// Bodies without inertia, which go straight and turn at once, are not taken for agents with a plan.
+#[test]
+fn motion_of_another_physics_is_judged_with_care() {
+    let event = event(Variant::Places, 3);
+    let ours = observed(&event);
+    let settings = quick()[0];
+    let answer = |observed: &ObservedEvent| explain(observed, &UniformStrength, 1, &settings).expect("sound");
+    let known = answer(&tracked(ours.clone(), Missing::default()));
+    assert!(!known.foreign);
+    let mut rows = ours.rows().to_vec();
+    for (t, row) in rows.iter_mut().enumerate() {
+        // From place to place in five steps, far faster than any agent turns and starts.
+        let place = |k: usize| Vec2::new([8.0, 24.0, 16.0][k % 3], [4.0, 12.0, 20.0][k / 3 % 3]);
+        for (k, body) in row.iter_mut().enumerate().take(2) {
+            let from = t / 5 + k;
+            let share = (t % 5) as f32 / 5.0;
+            body.position = place(from).lerp(place(from + 1), share);
+            body.velocity = (place(from + 1) - place(from)) * (12.0 / 5.0);
+        }
+    }
+    let objects = ours.object_sizes().to_vec();
+    let strange = ObservedEvent::new(ours.layout(), ours.agent_sizes(), objects, rows).expect("sound");
+    let answered = answer(&tracked(strange.clone(), Missing::default()));
+    assert!(
+        answered.foreign,
+        "{}",
+        InverseDynamics::new(&tracked(strange, Missing::default())).error_up_to(99)
+    );
+    let surest = |inference: &Inference| {
+        let goals = AgentId::ALL.map(|agent| inference.posterior.goals(agent)[0].1);
+        goals[0].max(goals[1])
+    };
+    // The prior keeps a fifth, so not even the sum of all evidence is certain.
+    assert!(surest(&answered) < 0.9, "{}", surest(&answered));
+    assert!((whole(&answered) - 1.0).abs() < 1e-9);
+    // Other forms and no landmarks: no goal that names one.
+    let missing = Missing { forms: true, landmarks: true, ..Missing::default() };
+    let answered = answer(&tracked(ours, missing));
+    let at_landmarks = |agent| answered.posterior.goals(agent).iter().any(|it| it.0.landmark().is_some());
+    assert!(answered.foreign && !AgentId::ALL.into_iter().any(at_landmarks));
+    assert!((whole(&answered) - 1.0).abs() < 1e-9);
 }

@@ -11,6 +11,8 @@ use phase_model::{
 
 /// Lines of one direction that may be edges of the arena: half of them from either side.
 const MOST_PEAKS: usize = 8;
+/// Where the rim of a landmark begins, from its middle to its edge.
+const RIM: f32 = 0.7;
 /// Squares of lines that may be the arena.
 const MOST_FRAMES: usize = 16;
 
@@ -97,7 +99,11 @@ impl Stage {
     fn in_frame(picture: &Picture<'_>, view: View, half_wall: f32) -> Result<(f32, Self), TrackError> {
         let everywhere = |_: Vec2| true;
         let (floor, noise) = main_colour(picture, view, everywhere);
-        let landmarks = LANDMARKS.map(|centre| main_colour(picture, view, |point| on(centre, point)).0);
+        // An agent of much the same colour may cover most of a landmark, but hardly of its rim.
+        let rim = |centre: Vec2, point: Vec2| {
+            on(centre, point) && (point - centre).abs().max_element() > RIM * LANDMARK_HALF_SIDE
+        };
+        let landmarks = LANDMARKS.map(|centre| main_colour(picture, view, |point| rim(centre, point)).0);
         let mut stage = Self {
             view,
             layout: Layout::new(0, None).map_err(|_| TrackError::Walls)?,
@@ -109,6 +115,11 @@ impl Stage {
         let (agreeing, layout) = stage.layout_of(picture)?;
         stage.layout = layout;
         Ok((agreeing, stage))
+    }
+
+    /// Whether any landmark has another colour than the floor.
+    pub(crate) fn has_landmarks(&self) -> bool {
+        self.landmarks.iter().any(|landmark| distance(*landmark, self.floor) > 12.0 + 3.0 * self.noise)
     }
 
     /// The colour at a world point without bodies.

@@ -134,7 +134,7 @@ fn patches(picture: &Picture<'_>, stage: &Stage, walls: &[Segment]) -> Vec<Patch
     patches
 }
 
-fn commonest(pixels: &[(Vec2, Rgb)]) -> Option<Rgb> {
+pub(crate) fn commonest(pixels: &[(Vec2, Rgb)]) -> Option<Rgb> {
     let mut counts = vec![0_u32; 4096];
     let bin = |colour: Rgb| colour.iter().fold(0, |bin, channel| 16 * bin + *channel as usize / 16);
     for (_, colour) in pixels {
@@ -144,7 +144,7 @@ fn commonest(pixels: &[(Vec2, Rgb)]) -> Option<Rgb> {
     (counts[most] > 0).then(|| [most / 256, most / 16 % 16, most % 16].map(|level| level as f32 * 16.0 + 8.0))
 }
 
-fn mean(colours: impl Iterator<Item = Rgb>) -> Rgb {
+pub(crate) fn mean(colours: impl Iterator<Item = Rgb>) -> Rgb {
     let mut sum = [0.0; 3];
     let mut count = 0.0_f32;
     for colour in colours {

@@ -40,6 +40,9 @@ pub enum TrackError {
         /// Number of discs.
         objects: usize,
     },
+    /// No shapes that can be followed.
+    #[error("the video has no shapes to follow: {0}")]
+    Shapes(String),
     /// A body disappeared for long.
     #[error("the {colour} body was not found for {seconds:.1} s from {start:.1} s on")]
     Lost {

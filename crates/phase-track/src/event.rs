@@ -1,21 +1,30 @@
 //! From a track to an event without labels.
 
 use crate::{BodyRows, Form, FrameMeaning, Track, TrackError};
-use phase_event::{Noise, ObservedEvent, Row, Tracking};
+use phase_event::{Missing, Noise, ObservedEvent, Row, Tracking};
 use phase_model::{AGENT_COUNT, Body, MAX_ENTITIES, Size, Vec2, arena};
 
-/// Roles of bodies, by their colours: agents 0 and 1, then objects 0 and 1.
+/// A body, by what tells it from the others.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Role {
+    /// Red, green and blue; of bodies that are not yet taken, the nearest.
+    Colour([u8; 3]),
+    /// Its number among the bodies that were found, from 1.
+    Number(usize),
+}
+
+/// Roles of bodies: agents 0 and 1, then objects 0 and 1.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Roles {
-    /// Red, green and blue of each: two agents, and as many objects as there are.
-    pub colours: Vec<[u8; 3]>,
+    /// The body in each role: two agents and up to two objects.
+    pub bodies: Vec<Role>,
 }
 
 /// Greatest difference of a colour that is named from that of a body.
 const SAME_COLOUR: f32 = 120.0;
 
 impl Roles {
-    /// Reads a list such as `red,green,#75d8e6`.
+    /// Reads a list such as `red,green,#75d8e6` or `2,1,3`.
     ///
     /// # Errors
     /// The rule that it violates.
@@ -32,6 +41,9 @@ impl Roles {
         ];
         let colour = |word: &str| {
             let word = word.trim();
+            if let Some(number) = word.parse().ok().filter(|number| (1..100).contains(number)) {
+                return Ok(Role::Number(number));
+            }
             let named = NAMES.iter().find(|(name, _)| *name == word).map(|(_, colour)| *colour);
             let digits = word
                 .strip_prefix('#')
@@ -39,46 +51,56 @@ impl Roles {
                 .and_then(|it| u32::from_str_radix(it, 16).ok());
             let hexadecimal =
                 digits.map(|it| [it >> 16, it >> 8 & 255, it & 255].map(|channel| channel as u8));
-            named.or(hexadecimal).ok_or_else(|| {
+            named.or(hexadecimal).map(Role::Colour).ok_or_else(|| {
                 let names: Vec<&str> = NAMES.iter().map(|(name, _)| *name).collect();
-                format!("{word:?} is no colour; give #rrggbb or one of {}", names.join(", "))
+                format!("{word:?} is no body; give its number, #rrggbb or one of {}", names.join(", "))
             })
         };
-        let colours = text.split(',').map(colour).collect::<Result<Vec<_>, _>>()?;
-        if !(AGENT_COUNT..=MAX_ENTITIES).contains(&colours.len()) {
-            return Err(format!(
-                "must name the colours of two agents and up to two objects, not {}",
-                colours.len()
-            ));
+        let bodies = text.split(',').map(colour).collect::<Result<Vec<_>, _>>()?;
+        if !(AGENT_COUNT..=MAX_ENTITIES).contains(&bodies.len()) {
+            return Err(format!("must name two agents and up to two objects, not {} bodies", bodies.len()));
         }
-        Ok(Self { colours })
+        Ok(Self { bodies })
     }
 
-    /// The places of the bodies of a track, in the order of the roles.
-    fn order(&self, track: &Track) -> Result<Vec<usize>, TrackError> {
-        let mut left: Vec<usize> = (0..track.bodies.len()).collect();
-        if self.colours.len() != left.len() {
-            let rule =
-                format!("--map names {} colours, but there are {} bodies", self.colours.len(), left.len());
-            return Err(TrackError::Map(rule));
-        }
-        let mut order = Vec::new();
-        for (role, colour) in self.colours.iter().enumerate() {
-            let form = if role < AGENT_COUNT { Form::Trapezoid } else { Form::Disc };
-            let off = |body: usize| {
-                let found = track.bodies[body].colour.map(f32::from);
-                crate::picture::distance(found, colour.map(f32::from))
+    /// The places of bodies of these colours, in the order of the roles; `fits` says whether a body can have
+    /// a role.
+    pub(crate) fn order(
+        &self,
+        colours: &[[u8; 3]],
+        fits: impl Fn(usize, usize) -> bool,
+    ) -> Result<Vec<usize>, TrackError> {
+        let hexadecimal = |[red, green, blue]: [u8; 3]| format!("#{red:02x}{green:02x}{blue:02x}");
+        let mut order: Vec<usize> = Vec::new();
+        for (role, &wanted) in self.bodies.iter().enumerate() {
+            let off = |body: usize| match wanted {
+                Role::Number(number) => {
+                    if body + 1 == number {
+                        0.0
+                    } else {
+                        f32::INFINITY
+                    }
+                }
+                Role::Colour(colour) => {
+                    crate::picture::distance(colours[body].map(f32::from), colour.map(f32::from))
+                }
             };
-            let fitting = left
-                .iter()
-                .copied()
-                .filter(|&body| track.bodies[body].form == form && off(body) < SAME_COLOUR);
-            let Some(body) = fitting.min_by(|a, b| off(*a).total_cmp(&off(*b))) else {
-                let [red, green, blue] = colour;
-                let what = if form == Form::Trapezoid { "agent" } else { "object" };
-                return Err(TrackError::Map(format!("--map: no {what} is #{red:02x}{green:02x}{blue:02x}")));
+            let fitting = (0..colours.len()).filter(|body| !order.contains(body) && fits(role, *body));
+            let near = fitting.filter(|&body| off(body) < SAME_COLOUR);
+            let Some(body) = near.min_by(|a, b| off(*a).total_cmp(&off(*b))) else {
+                let wanted = match wanted {
+                    Role::Number(number) => format!("number {number}"),
+                    Role::Colour(colour) => hexadecimal(colour),
+                };
+                let what = if role < AGENT_COUNT { "agent" } else { "object" };
+                let found: Vec<String> = colours
+                    .iter()
+                    .enumerate()
+                    .map(|(k, it)| format!("{} {}", k + 1, hexadecimal(*it)))
+                    .collect();
+                let rule = format!("--map: no {what} is {wanted}; the bodies are {}", found.join(", "));
+                return Err(TrackError::Map(rule));
             };
-            left.retain(|other| *other != body);
             order.push(body);
         }
         Ok(order)
@@ -96,7 +118,16 @@ impl Track {
         roles: Option<&Roles>,
     ) -> Result<(ObservedEvent, Tracking), TrackError> {
         let order = match roles {
-            Some(roles) => roles.order(self)?,
+            Some(roles) => {
+                let colours: Vec<[u8; 3]> = self.bodies.iter().map(|body| body.colour).collect();
+                if roles.bodies.len() != colours.len() {
+                    let (named, found) = (roles.bodies.len(), colours.len());
+                    let rule = format!("--map names {named} bodies, but there are {found}");
+                    return Err(TrackError::Map(rule));
+                }
+                let form = |role| if role < AGENT_COUNT { Form::Trapezoid } else { Form::Disc };
+                roles.order(&colours, |role, body| self.bodies[body].form == form(role))?
+            }
             None => (0..self.bodies.len()).collect(),
         };
         let rows = self.rows(meaning)?;
@@ -109,10 +140,11 @@ impl Track {
             frame_rate: self.frame_rate,
             straight: meaning != FrameMeaning::Substeps,
             hidden: hidden as f64 / (self.moments.len() * self.bodies.len()).max(1) as f64,
+            missing: Missing { landmarks: !self.landmarks, ..Missing::default() },
             deviations: rows.iter().map(|body| body.deviations.clone()).collect(),
         };
         let event = event(self.layout, &sizes, &rows)?;
-        Ok((event.with_noise(Some(tracking.noise)), tracking))
+        Ok((event.with_tracking(&tracking), tracking))
     }
 }
 

@@ -8,8 +8,9 @@
 //! Key design decision: analysis by synthesis. A pose is right if the body, drawn there over the ground and
 //! under the bodies above it, gives the pixels that were seen; Gauss-Newton steps move it until it does. So
 //! positions are as exact as the grey of edges, what other bodies hide is left out instead of missed, and
-//! colours tell identities apart, so that they cannot be swapped. The trade-off is that bodies of other forms
-//! than discs and an agent's trapezoid are not found.
+//! colours tell identities apart, so that they cannot be swapped. The trade-off is that it knows discs and an
+//! agent's trapezoid alone. For videos of anything else there are a [`Survey`] and a [`ShapeTracker`], which
+//! follow shapes of any form over a plain ground, less exactly and without headings.
 //!
 //! [`table()`] makes the same of positions in a table. Nothing is decoded here: no files, no video formats.
 //!
@@ -34,14 +35,16 @@ mod fit;
 mod picture;
 mod rows;
 mod shape;
+mod shapes;
 mod table;
 mod tracker;
 
 pub use arena::View;
 pub use error::TrackError;
-pub use event::Roles;
+pub use event::{Role, Roles};
 pub use picture::{MOST_PIXELS_ACROSS, Picture};
 pub use rows::{BodyRows, FrameMeaning};
 pub use shape::{Form, Pose};
+pub use shapes::{Shape, ShapeTrack, ShapeTracker, Survey};
 pub use table::{TableOptions, table};
 pub use tracker::{Measured, Moment, Track, TrackedBody, Tracker};

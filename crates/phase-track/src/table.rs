@@ -4,7 +4,7 @@ use crate::{
     BodyRows, TrackError,
     event::{event, noise},
 };
-use phase_event::{ObservedEvent, Tracking};
+use phase_event::{Missing, ObservedEvent, Tracking};
 use phase_model::{
     AGENT_COUNT, Layout, MAX_ENTITIES, Size, Vec2,
     arena::{self, STEP_SECONDS, STEP_VIDEO_SECONDS},
@@ -59,7 +59,7 @@ impl Default for TableOptions {
 }
 
 /// One line: time, place and angle.
-type Line = (f64, [f64; 2], Option<f64>);
+pub(crate) type Line = (f64, [f64; 2], Option<f64>);
 
 /// Reads a table (`ending` `csv`, `tsv`, or JSON in lines) as an event without labels.
 ///
@@ -121,7 +121,15 @@ pub fn table(
         }
         lines.push(track);
     }
-    let to_arena = scale(&lines, options)?;
+    let fits = |line: &Line| {
+        let y = if options.y_down { -line.1[1] } else { line.1[1] };
+        arena::contains(Vec2::new(line.1[0] as f32, y as f32))
+    };
+    let to_arena = if options.bounds.is_none() && lines.iter().flatten().all(fits) {
+        (1.0, [0.0; 2])
+    } else {
+        scale(&lines, options.bounds, options.y_down)?
+    };
     let start = lines.iter().map(|track| track[0].0).fold(f64::NEG_INFINITY, f64::max);
     let end = lines.iter().map(|track| track[track.len() - 1].0).fold(f64::INFINITY, f64::min);
     let steps = ((end - start) / STEP_VIDEO_SECONDS + 1e-6).max(0.0) as usize;
@@ -143,9 +151,10 @@ pub fn table(
         frame_rate: longest.saturating_sub(1) as f64 / (end - start),
         straight: true,
         hidden: 0.0,
+        missing: Missing::default(),
         deviations: rows.iter().map(|body| body.deviations.clone()).collect(),
     };
-    Ok((event(options.layout, &sizes, &rows)?.with_noise(Some(tracking.noise)), tracking))
+    Ok((event(options.layout, &sizes, &rows)?.with_tracking(&tracking), tracking))
 }
 
 /// Calls `take` with the number and the five columns of every line.
@@ -196,15 +205,16 @@ fn each_line(
     Ok(())
 }
 
-/// Factor and offset that lead from the table's coordinates, y up, into the arena.
-fn scale(lines: &[Vec<Line>], options: &TableOptions) -> Result<(f64, [f64; 2]), TrackError> {
-    let up = |y: f64| if options.y_down { -y } else { y };
+/// Factor and offset that lead from coordinates, y up, into the arena.
+pub(crate) fn scale(
+    lines: &[Vec<Line>],
+    bounds: Option<[f64; 4]>,
+    y_down: bool,
+) -> Result<(f64, [f64; 2]), TrackError> {
+    let up = |y: f64| if y_down { -y } else { y };
     let places = || lines.iter().flatten().map(|(_, [x, y], _)| [*x, up(*y)]);
     let fits = |[x, y]: [f64; 2]| arena::contains(Vec2::new(x as f32, y as f32));
-    if options.bounds.is_none() && places().all(fits) {
-        return Ok((1.0, [0.0; 2]));
-    }
-    let (low, high, side) = if let Some([left, bottom, right, top]) = options.bounds {
+    let (low, high, side) = if let Some([left, bottom, right, top]) = bounds {
         let [a, b] = [bottom, top].map(up);
         ([left, a.min(b)], [right, a.max(b)], f64::from(arena::SIDE))
     } else {
@@ -236,7 +246,7 @@ fn scale(lines: &[Vec<Line>], options: &TableOptions) -> Result<(f64, [f64; 2]),
     Ok((factor, offset))
 }
 
-fn rows(
+pub(crate) fn rows(
     track: &[Line],
     start: f64,
     steps: usize,

@@ -31,7 +31,7 @@ pub const WASM: [&str; 2] = ["phase.js", "phase_bg.wasm"];
 /// Contents of these files, if this build includes them.
 const INCLUDED: Option<[&[u8]; 2]> = include!(concat!(env!("OUT_DIR"), "/wasm.rs"));
 
-const PLAYGROUND: [(&str, &[u8]); 9] = [
+const PLAYGROUND: [(&str, &[u8]); 11] = [
     ("index.html", include_bytes!("../pages/playground/index.html")),
     ("playground.css", include_bytes!("../pages/playground/playground.css")),
     ("playground.js", include_bytes!("../pages/playground/playground.js")),
@@ -40,6 +40,8 @@ const PLAYGROUND: [(&str, &[u8]); 9] = [
     ("keyboard.js", include_bytes!("../pages/playground/keyboard.js")),
     ("share.js", include_bytes!("../pages/playground/share.js")),
     ("simulator.js", include_bytes!("../pages/playground/simulator.js")),
+    ("tracker.js", include_bytes!("../pages/playground/tracker.js")),
+    ("video.js", include_bytes!("../pages/playground/video.js")),
     ("observer.js", include_bytes!("../pages/playground/observer.js")),
 ];
 

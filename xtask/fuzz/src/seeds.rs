@@ -66,6 +66,7 @@ pub fn seeds(target: &str) -> Vec<Vec<u8>> {
         }
         "table" => texts(&["time,body,x,y,angle\n0,a,8,8,0\n1,a,12,8,1\n0,b,20,20,0\n1,b,20,20,0\n"]),
         "pictures" => vec![vec![255; 8], vec![0, 0, 0, 255, 255, 255]],
+        "shapes" => vec![vec![10, 10, 30, 3, 2, 1, 60, 50, 40, 130, 125, 2], vec![0; 30]],
         "manifest" => texts(&[
             r#"{"format":"phase-dataset/3","name":"a","generator":"phase 0.1.0","seed":1,"events":[]}"#,
         ]),

@@ -12,7 +12,7 @@ mod texts;
 pub type Check = fn(&[u8]);
 
 /// Every target, by its name.
-pub const TARGETS: [(&str, Check); 24] = [
+pub const TARGETS: [(&str, Check); 25] = [
     ("events", texts::events),
     ("scene", texts::scene),
     ("preset", texts::preset),
@@ -31,6 +31,7 @@ pub const TARGETS: [(&str, Check); 24] = [
     ("weights", texts::weights),
     ("table", texts::table),
     ("pictures", texts::pictures),
+    ("shapes", texts::shapes),
     ("manifest", files::manifest),
     ("records", files::records),
     ("world", engines::world),

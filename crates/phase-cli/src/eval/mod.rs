@@ -52,14 +52,11 @@ pub fn run(arguments: &Eval, context: &Context) -> Result<(), CliError> {
     }
 }
 
-/// Share of explained steps below which motion is said not to obey PHASE's physics.
-const LEAST_EXPLAINED: f64 = 0.5;
-
 /// A method's answers to events without labels: the likeliest goals and relation of each.
 fn answers_text(answered: &[Answered], file: &Path) -> String {
     let names = PaletteName::default().palette().names;
     let mut text = String::new();
-    for Answered { id, answer, details, .. } in answered {
+    for Answered { id, answer, details, not_judged, .. } in answered {
         text += &format!("{id}:\n");
         for (agent, goals) in AgentId::ALL.into_iter().zip(&answer.goals) {
             if let Some(likeliest) = goals.first() {
@@ -73,13 +70,14 @@ fn answers_text(answered: &[Answered], file: &Path) -> String {
         }
         let RelationProbabilities { friendly, adversarial, neutral } = answer.relation;
         text += &format!("  friendly {friendly:.2}, adversarial {adversarial:.2}, neutral {neutral:.2}\n");
+        not_judged.iter().for_each(|sentence| text += &format!("  {sentence}\n"));
         if let Some(explained) = details["motion"]["explained"].as_f64() {
             let error = details["motion"]["error"].as_f64().unwrap_or_default();
             text += &format!(
                 "  PHASE's physics explains {:.0} % of the steps (median error {error:.3} u){}\n",
                 100.0 * explained,
-                if explained < LEAST_EXPLAINED {
-                    "; where it does not, form of the motion alone decides"
+                if details["motion"]["foreign"] == true {
+                    ": the answer is that of the intent network and of distances, without simulations"
                 } else {
                     ""
                 }

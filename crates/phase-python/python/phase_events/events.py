@@ -174,6 +174,11 @@ class ObservedEvent(_Seen):
         return self._native.noise
 
     @property
+    def not_judged(self):
+        """What nobody can judge, because the video did not show it, each as a sentence."""
+        return self._native.not_judged
+
+    @property
     def steps(self):
         """The number of steps, each of 0.25 s."""
         return self._native.steps
@@ -399,7 +404,7 @@ def load_observed(path):
     return [ObservedEvent.of_native(one) for one in _native.Observed.read(path)]
 
 
-def track(source, *, frame_rate=20, id="video"):
+def track(source, *, frame_rate=20, id="video", map=None):
     """What a video shows, as an event without labels.
 
     Args:
@@ -408,6 +413,8 @@ def track(source, *, frame_rate=20, id="video"):
             width, 3), ``uint8``.
         frame_rate: frames a second, 4 to 240, of an array or of a folder of pictures; files of other kinds know theirs.
         id: the name of the event, for an array.
+        map: of a file, the bodies that are agent 0, agent 1 and the objects, by colour or number, such as ``"green,red"`` or
+            ``"3,1,2"``.
 
     Returns:
         an :class:`ObservedEvent`. Its ``noise`` has the root mean square errors of positions (u), velocities (u/s) and angles (rad).
@@ -418,7 +425,8 @@ def track(source, *, frame_rate=20, id="video"):
     if not (isinstance(frame_rate, numbers.Real) and 4 <= frame_rate <= 240):
         raise PhaseError(f"frame_rate must be 4 to 240, not {frame_rate!r}")
     if isinstance(source, (str, os.PathLike)):
-        return ObservedEvent.of_native(_native.Observed.track(path_of(source), float(frame_rate)))
+        map = None if map is None else text("map", map)
+        return ObservedEvent.of_native(_native.Observed.track(path_of(source), float(frame_rate), map))
     frames = np.asarray(source)
     if frames.dtype != np.uint8 or frames.ndim != 4 or frames.shape[-1] != 3:
         raise PhaseError(f"frames must be uint8 of shape (frames, height, width, 3), not {frames.dtype} of {frames.shape}")

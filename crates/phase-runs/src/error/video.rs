@@ -10,6 +10,14 @@ pub enum VideoError {
     /// Its pictures show nothing that can be tracked.
     #[error(transparent)]
     Track(#[from] TrackError),
+    /// Neither an arena with agents nor shapes that can be followed.
+    #[error("{why}; nor can it be read as a video of other shapes: {error}")]
+    Foreign {
+        /// Why it is no video of an arena.
+        why: TrackError,
+        /// Why it is no video of shapes.
+        error: TrackError,
+    },
     /// It is none, or damaged.
     #[error("is no video that can be read: {0}")]
     Unreadable(String),

@@ -27,6 +27,9 @@ pub struct Answered {
     pub answer: Answer,
     /// CPU time that it took (s).
     pub cpu_seconds: f64,
+    /// What nobody can judge of the event, each as a sentence.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub not_judged: Vec<String>,
     /// Details that the method adds.
     pub details: Value,
 }
@@ -88,7 +91,8 @@ impl Evaluation {
             let Some((answer, details)) = asked.map_err(failed)? else { return Ok(None) };
             progress.event(method.ticks(), id);
             let cpu_seconds = begun.elapsed().as_secs_f64();
-            Ok(Some(Answered { id: id.clone(), answer, cpu_seconds, details }))
+            let not_judged = observed.missing().sentences();
+            Ok(Some(Answered { id: id.clone(), answer, cpu_seconds, not_judged, details }))
         })?;
         drop(progress);
         let stem = self.events.file_stem().unwrap_or_default().to_string_lossy().into_owned();

@@ -1,12 +1,12 @@
 //! Animated GIFs.
 
-use super::{Follower, VideoError};
+use super::{Sink, VideoError};
 use gif::{ColorOutput, DecodeOptions, DisposalMethod};
-use phase_track::{MOST_PIXELS_ACROSS, Track, TrackError};
+use phase_track::{MOST_PIXELS_ACROSS, TrackError};
 use std::{fs::File, io::BufReader};
 
-/// Tracks a GIF.
-pub(super) fn track(file: File) -> Result<Track, VideoError> {
+/// Decodes a GIF.
+pub(super) fn decode(file: File, sink: Sink<'_>) -> Result<(), VideoError> {
     let failed = |error: gif::DecodingError| VideoError::Unreadable(format!("as GIF, {error}"));
     let mut options = DecodeOptions::new();
     options.set_color_output(ColorOutput::RGBA);
@@ -16,7 +16,6 @@ pub(super) fn track(file: File) -> Result<Track, VideoError> {
         return Err(TrackError::Size { width, height }.into());
     }
     let mut canvas = vec![255; 3 * width * height];
-    let mut follower = Follower::default();
     let mut hundredths = 0_u64;
     while let Some(frame) = decoder.read_next_frame().map_err(failed)? {
         let before = (frame.dispose == DisposalMethod::Previous).then(|| canvas.clone());
@@ -31,7 +30,7 @@ pub(super) fn track(file: File) -> Result<Track, VideoError> {
                 canvas[place..place + 3].copy_from_slice(&pixel[..3]);
             }
         }
-        follower.push((width, height), &canvas, hundredths as f64 / 100.0)?;
+        sink((width, height), &canvas, hundredths as f64 / 100.0)?;
         // Browsers show frames without a time for a tenth of a second.
         hundredths += u64::from(if frame.delay == 0 { 10 } else { frame.delay });
         match (frame.dispose, before) {
@@ -44,5 +43,5 @@ pub(super) fn track(file: File) -> Result<Track, VideoError> {
             _ => {}
         }
     }
-    follower.finish()
+    Ok(())
 }

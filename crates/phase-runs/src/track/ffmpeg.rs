@@ -1,7 +1,7 @@
 //! Any video, decoded by the program `ffmpeg`.
 
-use super::{Follower, VideoError};
-use phase_track::{MOST_PIXELS_ACROSS, Track, TrackError};
+use super::{Sink, VideoError};
+use phase_track::{MOST_PIXELS_ACROSS, TrackError};
 use std::{
     io::{self, BufRead, BufReader, Read},
     path::Path,
@@ -11,8 +11,8 @@ use std::{
 /// Longest line of a header (bytes).
 const LONGEST_LINE: u64 = 1000;
 
-/// Tracks a video that cannot be read otherwise, which `why` explains.
-pub(super) fn track(path: &Path, why: String) -> Result<Track, VideoError> {
+/// Decodes a video that cannot be read otherwise, which `why` explains.
+pub(super) fn decode(path: &Path, why: String, sink: Sink<'_>) -> Result<(), VideoError> {
     // A file whose name begins with a dash or a protocol is still a file.
     let file = std::fs::canonicalize(path)?;
     let started = Command::new("ffmpeg")
@@ -41,15 +41,14 @@ pub(super) fn track(path: &Path, why: String) -> Result<Track, VideoError> {
     let area = size.0 * size.1;
     let mut planes = vec![0; 3 * area];
     let mut rgb = vec![0; 3 * area];
-    let mut follower = Follower::default();
     let mut frame = 0;
     while line(&mut pipe)?.is_some_and(|line| line.starts_with("FRAME")) {
         pipe.read_exact(&mut planes)?;
         to_rgb(&planes, &mut rgb);
-        follower.push(size, &rgb, f64::from(frame) / rate)?;
+        sink(size, &rgb, f64::from(frame) / rate)?;
         frame += 1;
     }
-    follower.finish()
+    Ok(())
 }
 
 /// A program that is stopped when its pictures are no longer wanted.

@@ -9,15 +9,49 @@ pub use crate::error::video::VideoError;
 use crate::{error::RunError, interrupt::requested};
 use phase_event::{ObservedEvent, Tracking, check_id};
 use phase_files::{FileError, Problem, regular};
-use phase_track::{FrameMeaning, Picture, Roles, TableOptions, Track, Tracker};
+use phase_track::{
+    FrameMeaning, Picture, Roles, ShapeTrack, Survey, TableOptions, Track, TrackError, Tracker,
+};
 use std::path::{Path, PathBuf};
+
+/// Takes decoded frames: width and height (pixels), red, green and blue of each pixel, and the time (s).
+type Sink<'a> = &'a mut dyn FnMut((usize, usize), &[u8], f64) -> Result<(), VideoError>;
 
 /// Tracks H.264 in an .mp4, without the help of other programs.
 ///
 /// # Errors
 /// [`VideoError`].
 pub fn read_mp4(file: std::fs::File) -> Result<Track, VideoError> {
-    mp4::track(file)
+    track(|sink| mp4::decode(file, sink))
+}
+
+/// Tracks the bodies of PHASE in what `decode` shows.
+fn track(decode: impl FnOnce(Sink<'_>) -> Result<(), VideoError>) -> Result<Track, VideoError> {
+    let mut tracker = Tracker::new();
+    decode(&mut |(width, height), rgb, seconds| {
+        goes_on()?;
+        Ok(tracker.push(&Picture::new(width, height, rgb)?, seconds)?)
+    })?;
+    Ok(tracker.finish()?)
+}
+
+/// Follows shapes of any form, in two passes.
+fn shapes(decode: impl Fn(Sink<'_>) -> Result<(), VideoError>) -> Result<ShapeTrack, VideoError> {
+    let mut survey = Survey::new();
+    decode(&mut |(width, height), rgb, _| {
+        goes_on()?;
+        Ok(survey.push(&Picture::new(width, height, rgb)?)?)
+    })?;
+    let mut tracker = survey.finish()?;
+    decode(&mut |(width, height), rgb, seconds| {
+        goes_on()?;
+        Ok(tracker.push(&Picture::new(width, height, rgb)?, seconds)?)
+    })?;
+    Ok(tracker.finish()?)
+}
+
+fn goes_on() -> Result<(), VideoError> {
+    if requested() { Err(VideoError::Interrupted) } else { Ok(()) }
 }
 
 /// A run that tracks one video or table.
@@ -46,6 +80,8 @@ pub struct Tracked {
     pub observed: ObservedEvent,
     /// The errors with which it was measured.
     pub tracking: Tracking,
+    /// All shapes of a video that does not show an arena with agents.
+    pub shapes: Option<ShapeTrack>,
 }
 
 impl TrackRun {
@@ -57,15 +93,34 @@ impl TrackRun {
         let failed = |source: VideoError| RunError::Track { file: self.input.clone(), source };
         let id = self.id()?;
         let ending = ending(&self.input);
+        let mut shapes_found = None;
         let (observed, tracking) = if ["csv", "jsonl", "ndjson", "tsv"].contains(&ending.as_str()) {
             let bytes = regular::bytes(&self.input)?;
             phase_track::table(&bytes, &ending, &self.table).map_err(|error| failed(error.into()))?
         } else {
-            let track = self.video().map_err(failed)?;
-            let meaning = self.meaning.unwrap_or_else(|| track.meaning());
-            track.event(meaning, self.roles.as_ref()).map_err(|error| failed(error.into()))?
+            match track(|sink| self.decode(sink)) {
+                Ok(track) => {
+                    let meaning = self.meaning.unwrap_or_else(|| track.meaning());
+                    track.event(meaning, self.roles.as_ref()).map_err(|error| failed(error.into()))?
+                }
+                Err(VideoError::Track(
+                    why @ (TrackError::NoArena { .. } | TrackError::Walls | TrackError::Bodies { .. }),
+                )) => {
+                    let found = shapes(|sink| self.decode(sink)).map_err(|error| match error {
+                        // Both reasons are of interest.
+                        VideoError::Track(error @ TrackError::Shapes(_)) => {
+                            failed(VideoError::Foreign { why, error })
+                        }
+                        error => failed(error),
+                    })?;
+                    let event = found.event(self.roles.as_ref()).map_err(|error| failed(error.into()))?;
+                    shapes_found = Some(found);
+                    event
+                }
+                Err(error) => return Err(failed(error)),
+            }
         };
-        Ok(Tracked { id, observed, tracking })
+        Ok(Tracked { id, observed, tracking, shapes: shapes_found })
     }
 
     fn id(&self) -> Result<String, RunError> {
@@ -81,17 +136,17 @@ impl TrackRun {
         Ok(id)
     }
 
-    fn video(&self) -> Result<Track, VideoError> {
+    fn decode(&self, sink: Sink<'_>) -> Result<(), VideoError> {
         if self.input.is_dir() {
-            return pictures::track(&self.input, self.frame_rate);
+            return pictures::decode(&self.input, self.frame_rate, sink);
         }
         let file = regular::open(&self.input).map_err(|FileError { problem, .. }| match problem {
             Problem::Unreadable(error) => VideoError::Io(error),
             other => VideoError::Unreadable(other.to_string()),
         })?;
         let native = match ending(&self.input).as_str() {
-            "gif" => return animation::track(file),
-            "mp4" | "m4v" | "mov" => mp4::track(file),
+            "gif" => return animation::decode(file, sink),
+            "mp4" | "m4v" | "mov" => mp4::decode(file, &mut *sink),
             "png" | "jpg" | "jpeg" | "bmp" | "webp" | "svg" => {
                 let rule = "it is one picture; give a video, a GIF or a folder of PNG pictures";
                 return Err(VideoError::Unreadable(rule.into()));
@@ -99,7 +154,7 @@ impl TrackRun {
             _ => Err(VideoError::Unreadable("its ending is not .mp4 or .gif".into())),
         };
         match native {
-            Err(VideoError::Unreadable(why)) => ffmpeg::track(&self.input, why),
+            Err(VideoError::Unreadable(why)) => ffmpeg::decode(&self.input, why, sink),
             other => other,
         }
     }
@@ -107,23 +162,4 @@ impl TrackRun {
 
 fn ending(path: &Path) -> String {
     path.extension().map(|ending| ending.to_string_lossy().to_lowercase()).unwrap_or_default()
-}
-
-/// Tracks pictures as they come.
-#[derive(Default)]
-struct Follower {
-    tracker: Tracker,
-}
-
-impl Follower {
-    fn push(&mut self, (width, height): (usize, usize), rgb: &[u8], seconds: f64) -> Result<(), VideoError> {
-        if requested() {
-            return Err(VideoError::Interrupted);
-        }
-        Ok(self.tracker.push(&Picture::new(width, height, rgb)?, seconds)?)
-    }
-
-    fn finish(self) -> Result<Track, VideoError> {
-        Ok(self.tracker.finish()?)
-    }
 }

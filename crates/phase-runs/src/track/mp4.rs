@@ -1,12 +1,12 @@
 //! H.264 in an .mp4.
 
-use super::{Follower, VideoError};
+use super::{Sink, VideoError};
 use openh264::{
     OpenH264API,
     decoder::{DecodedYUV, Decoder, DecoderConfig, Flush},
     formats::YUVSource,
 };
-use phase_track::{MOST_PIXELS_ACROSS, Track, TrackError};
+use phase_track::{MOST_PIXELS_ACROSS, TrackError};
 use re_mp4::{Mp4, Sample, TrackKind};
 use std::{
     fs::File,
@@ -18,8 +18,8 @@ const LARGEST_SAMPLE: u64 = 1 << 24;
 /// Greatest number of pictures: an hour at 240 a second.
 const MOST_SAMPLES: usize = 864_000;
 
-/// Tracks the first video of a file.
-pub(super) fn track(file: File) -> Result<Track, VideoError> {
+/// Decodes the first video of a file.
+pub(super) fn decode(file: File, sink: Sink<'_>) -> Result<(), VideoError> {
     let length = file.metadata()?.len();
     let mut file = BufReader::new(file);
     let unreadable = |rule: String| VideoError::Unreadable(rule);
@@ -44,12 +44,7 @@ pub(super) fn track(file: File) -> Result<Track, VideoError> {
     }
     let mut times: Vec<i64> = samples.iter().map(|sample| sample.composition_timestamp).collect();
     times.sort_unstable();
-    let mut shown = Shown {
-        follower: Follower::default(),
-        times: times.into_iter(),
-        scale: video.timescale as f64,
-        rgb: Vec::new(),
-    };
+    let mut shown = Shown { sink, times: times.into_iter(), scale: video.timescale as f64, rgb: Vec::new() };
     let failed = |error: openh264::Error| unreadable(format!("a picture cannot be decoded ({error})"));
     let configuration = DecoderConfig::new().flush_after_decode(Flush::NoFlush);
     let mut decoder = Decoder::with_api_config(OpenH264API::from_source(), configuration).map_err(failed)?;
@@ -75,12 +70,12 @@ pub(super) fn track(file: File) -> Result<Track, VideoError> {
     if shown.times.next().is_some() {
         return Err(unreadable("not all of its pictures can be decoded".into()));
     }
-    shown.follower.finish()
+    Ok(())
 }
 
 /// Pictures in the order in which they are shown.
-struct Shown {
-    follower: Follower,
+struct Shown<'a> {
+    sink: Sink<'a>,
     /// Their times, in units of the file.
     times: std::vec::IntoIter<i64>,
     /// Units a second.
@@ -88,7 +83,7 @@ struct Shown {
     rgb: Vec<u8>,
 }
 
-impl Shown {
+impl Shown<'_> {
     fn show(&mut self, picture: &DecodedYUV<'_>) -> Result<(), VideoError> {
         let (width, height) = picture.dimensions();
         if width.max(height) > MOST_PIXELS_ACROSS {
@@ -100,7 +95,7 @@ impl Shown {
             .ok_or_else(|| VideoError::Unreadable("it has more pictures than times".into()))?;
         self.rgb.resize(3 * width * height, 0);
         picture.write_rgb8(&mut self.rgb);
-        self.follower.push((width, height), &self.rgb, time as f64 / self.scale)
+        (self.sink)((width, height), &self.rgb, time as f64 / self.scale)
     }
 }
 

@@ -1,13 +1,13 @@
 //! Folders of PNG pictures.
 
-use super::{Follower, VideoError};
+use super::{Sink, VideoError};
 use phase_files::regular;
-use phase_track::{MOST_PIXELS_ACROSS, Track, TrackError};
+use phase_track::{MOST_PIXELS_ACROSS, TrackError};
 use png::{ColorType, Decoder, Transformations};
 use std::{io::BufReader, path::Path};
 
-/// Tracks the pictures of a folder in the order of the numbers in their names.
-pub(super) fn track(folder: &Path, frame_rate: f64) -> Result<Track, VideoError> {
+/// Decodes the pictures of a folder in the order of the numbers in their names.
+pub(super) fn decode(folder: &Path, frame_rate: f64, sink: Sink<'_>) -> Result<(), VideoError> {
     let mut files = Vec::new();
     for entry in std::fs::read_dir(folder)? {
         let path = entry?.path();
@@ -22,7 +22,6 @@ pub(super) fn track(folder: &Path, frame_rate: f64) -> Result<Track, VideoError>
     if files.is_empty() {
         return Err(VideoError::Unreadable("the folder has no .png files".into()));
     }
-    let mut follower = Follower::default();
     let mut rgb = Vec::new();
     for (k, (_, name, path)) in files.iter().enumerate() {
         let failed = |rule: String| VideoError::Unreadable(format!("picture {name}: {rule}"));
@@ -31,9 +30,9 @@ pub(super) fn track(folder: &Path, frame_rate: f64) -> Result<Track, VideoError>
             VideoError::Unreadable(rule) => failed(rule),
             other => other,
         })?;
-        follower.push(size, &rgb, k as f64 / frame_rate)?;
+        sink(size, &rgb, k as f64 / frame_rate)?;
     }
-    follower.finish()
+    Ok(())
 }
 
 /// Reads a picture as red, green and blue over white.

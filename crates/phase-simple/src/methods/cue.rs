@@ -18,6 +18,6 @@ impl Recogniser for MotionCue {
     ) -> MethodResult<Judgement> {
         let whole = 0..=observed.steps();
         let proposal = Proposal::new(observed, whole, InferenceSettings::default().gamma, &UniformStrength);
-        Ok(Some((proposal.posterior().judgement(), Value::Null)))
+        Ok(Some((proposal.posterior().judged(observed).judgement(), Value::Null)))
     }
 }

@@ -33,6 +33,6 @@ impl Recogniser for IntentGuess {
         _seed: u64,
         _tick: ProgressCallback<'_>,
     ) -> MethodResult<Judgement> {
-        Ok(Some((self.network.posterior(observed).judgement(), Value::Null)))
+        Ok(Some((self.network.posterior(observed).judged(observed).judgement(), Value::Null)))
     }
 }

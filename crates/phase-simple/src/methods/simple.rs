@@ -236,6 +236,7 @@ fn details(prepared: &PreparedEvent, inference: &Inference) -> Value {
         details["motion"] = json!({
             "error": motion.error_up_to(steps),
             "explained": explained as f64 / steps.max(1) as f64,
+            "foreign": inference.foreign,
         });
     }
     details

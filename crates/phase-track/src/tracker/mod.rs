@@ -195,6 +195,7 @@ impl Tracker {
         };
         Ok(Track {
             view: known.stage.view,
+            landmarks: known.stage.has_landmarks(),
             layout: known.stage.layout,
             bodies: known.followed.iter().map(body).collect(),
             frame_rate,
@@ -210,6 +211,8 @@ pub struct Track {
     pub view: View,
     /// Walls and landmarks.
     pub layout: Layout,
+    /// Whether there are landmarks.
+    pub landmarks: bool,
     /// The bodies, agents first: at least two, at most four.
     pub bodies: Vec<TrackedBody>,
     /// Frames a second.

@@ -1,4 +1,4 @@
-// A worker that infers. Messages: {start: {scene, row}} and {row, step}; a row is answered by {run, step, answer}, or by {run, error}.
+// A worker that infers. Messages: {start: {scene, row}} or {start: {file, index}}, and {row, step}; a row is answered by {run, step, answer}, or by {run, error}.
 import init, { Observer } from "./phase.js";
 
 // Decisions that are spent on a row at most.
@@ -14,7 +14,8 @@ onmessage = async ({ data }) => {
       run = data.run;
       observer?.free();
       observer = null;
-      observer = new Observer(data.start.scene, data.start.row, DECISIONS);
+      const { scene, row, file, index } = data.start;
+      observer = file ? Observer.ofEvent(file, index, DECISIONS) : new Observer(scene, row, DECISIONS);
     } else if (data.row && data.run === run && observer) {
       postMessage({ run, step: data.step, answer: JSON.parse(observer.push(data.row)) });
     }

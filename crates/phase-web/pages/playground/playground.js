@@ -4,6 +4,7 @@ import { Editor } from "./editor.js";
 import { Keyboard } from "./keyboard.js";
 import { showPosterior, showThoughts } from "./panels.js";
 import * as share from "./share.js";
+import { Film } from "./video.js";
 
 const SUBSTEPS = 5; // of a step
 const FRAMES_PER_SECOND = 20; // substeps that are shown in a second
@@ -31,6 +32,8 @@ let answers = []; // of the observer, by step
 let pending = false; // whether a step is being simulated
 let running = false;
 let simulated = true; // false for an event from a file, which is only shown
+let editable = true; // false for an event without labels, of which there is no scene to edit
+let film = null; // the video that is shown in place of drawings
 let playhead = 0; // substeps
 let shownMind = null;
 let shownStep = null;
@@ -74,19 +77,26 @@ observer.onmessage = ({ data }) => {
   shownStep = null;
 };
 
-/** Begins the scene of the editor anew. */
-function restart() {
+/** Forgets what was shown, and gets ready to show a scene. */
+function reset(scene) {
   run += 1;
   [steps, answers, took] = [[], [], []];
-  [pending, running, simulated, playhead, shownMind, shownStep] = [true, false, true, 0, null, null];
+  [pending, running, simulated, editable, playhead, shownMind, shownStep] = [true, false, true, true, 0, null, null];
+  film?.close();
+  film = null;
   byId("time").max = "0";
-  const scene = JSON.stringify(editor.scene);
   picture?.free();
   picture = new Picture(scene, canvas.width, byId("palette").value);
-  simulator.postMessage({ run, start: { scene, ...settings() } });
-  observer.postMessage({ run, start: { scene, row: startState(scene) } });
   byId("events-of-file").hidden = true;
   for (const id of ["run", "step", "restart", "time"]) byId(id).disabled = false;
+}
+
+/** Begins the scene of the editor anew. */
+function restart() {
+  const scene = JSON.stringify(editor.scene);
+  reset(scene);
+  simulator.postMessage({ run, start: { scene, ...settings() } });
+  observer.postMessage({ run, start: { scene, row: startState(scene) } });
 }
 
 const last = () => steps[steps.length - 1];
@@ -141,8 +151,12 @@ function draw() {
     else picture.hideMind();
     shownMind = { mind, agent };
   }
-  const pixels = picture.draw(stateAt(Math.min(playhead, (steps.length - 1) * SUBSTEPS)));
-  context.putImageData(new ImageData(new Uint8ClampedArray(pixels.buffer, pixels.byteOffset, pixels.length), picture.width), 0, 0);
+  if (film) {
+    film.show(running, playhead / FRAMES_PER_SECOND);
+    film.draw(context, Math.min(playhead, (steps.length - 1) * SUBSTEPS) / FRAMES_PER_SECOND);
+  } else {
+    drawScene();
+  }
   byId("time").value = String(Math.round(playhead));
   byId("clock").textContent = `${(playhead / FRAMES_PER_SECOND).toFixed(1)} s`;
   const number = Math.floor(playhead / SUBSTEPS);
@@ -154,6 +168,11 @@ function draw() {
   }
 }
 
+function drawScene() {
+  const pixels = picture.draw(stateAt(Math.min(playhead, (steps.length - 1) * SUBSTEPS)));
+  context.putImageData(new ImageData(new Uint8ClampedArray(pixels.buffer, pixels.byteOffset, pixels.length), picture.width), 0, 0);
+}
+
 let then = performance.now();
 let waited = 0;
 function tick(now) {
@@ -161,7 +180,7 @@ function tick(now) {
   then = now;
   if (running && steps.length > 0) {
     const end = (steps.length - 1) * SUBSTEPS;
-    const wanted = playhead + (passed * FRAMES_PER_SECOND) / 1000;
+    const wanted = film ? film.time * FRAMES_PER_SECOND : playhead + (passed * FRAMES_PER_SECOND) / 1000;
     waited = wanted > end ? waited + passed : Math.max(0, waited - passed / 4);
     playhead = Math.min(wanted, end);
     ask();
@@ -193,12 +212,13 @@ function save(text, name) {
   setTimeout(() => URL.revokeObjectURL(link.href), 10_000);
 }
 
-/** Shows an event of a file; Restart simulates its scene anew. */
-function replay(events, index) {
-  editor.take(JSON.parse(events.scene(index)));
-  restart();
-  run += 1; // what was just begun is not wanted
-  [simulated, pending] = [false, false];
+/** Shows an event of a file, or a film of one. Restart simulates the scene of the editor, which is the event's if it has labels. */
+function replay(events, index, file, shown = null) {
+  const labelled = events.labelled(index);
+  const scene = events.scene(index);
+  if (labelled) editor.take(JSON.parse(scene));
+  reset(scene);
+  [simulated, pending, editable, film] = [false, false, labelled, shown];
   const [frames, rows] = [events.frames(index), events.rows(index)];
   const count = rows.length / STATE;
   const piece = (from, to) => frames.slice(from * STATE, to * STATE);
@@ -207,15 +227,20 @@ function replay(events, index) {
     steps.push({ frames: piece(from, k === 0 ? 1 : from + SUBSTEPS), report: { step: k, over: k + 1 === count } });
   }
   byId("time").max = String((steps.length - 1) * SUBSTEPS);
-  observer.postMessage({ run, start: { scene: JSON.stringify(editor.scene), row: rows.slice(0, STATE) } });
+  const start = labelled ? { scene: JSON.stringify(editor.scene), row: rows.slice(0, STATE) } : { file, index };
+  observer.postMessage({ run, start });
   for (let k = 1; k < count; k += 1) observer.postMessage({ run, row: rows.slice(k * STATE, (k + 1) * STATE), step: k });
-  say(`${events.id(index)}: an event from a file. Restart lets minds play its scene.`);
+  const notes = shown ? shown.notes.map((note) => ` ${note}.`).join("") : "";
+  if (labelled) say(`${events.id(index)}: an event from a file. Restart lets minds play its scene.`);
+  else say(`${events.id(index)}: ${shown ? "a video, with what was found in it." : "an event without labels."}${notes} Restart goes back to the scene below.`);
 }
 
 async function open(file) {
-  let events;
+  if (file.type.startsWith("video/") || /\.(mp4|m4v|mov|webm)$/i.test(file.name)) return openVideo(file);
+  let events, text;
   try {
-    events = new Events(await file.text());
+    text = await file.text();
+    events = new Events(text);
   } catch (error) {
     return say(`${file.name}: ${error.message}`, true);
   }
@@ -224,7 +249,7 @@ async function open(file) {
   const show = () => {
     const index = Number(list.value);
     if (events.rows(index).length > STATE) {
-      replay(events, index);
+      replay(events, index, text);
     } else {
       editor.take(JSON.parse(events.scene(index)));
       restart();
@@ -234,6 +259,22 @@ async function open(file) {
   };
   list.onchange = show;
   show();
+}
+
+async function openVideo(file) {
+  running = false;
+  const begun = (run += 1); // what comes meanwhile is not wanted
+  try {
+    const read = await Film.read(file, (pass, share) => {
+      if (run !== begun) throw new Error("another event was opened");
+      const what = ["agents", "the ground", "shapes"][pass];
+      say(`${file.name}: looking for ${what}, ${Math.round(100 * share)} %`);
+    });
+    replay(new Events(read.document), 0, read.document, read);
+  } catch (error) {
+    if (run === begun) restart();
+    say(`${file.name}: ${error.message}`, true);
+  }
 }
 
 const editor = new Editor(() => { restart(); say("The scene has changed."); }, (text) => say(text, true));
@@ -289,6 +330,11 @@ byId("save-event").onclick = () => {
   simulator.postMessage({ document: "event" });
 };
 byId("open").onchange = () => { if (byId("open").files[0]) open(byId("open").files[0]); byId("open").value = ""; };
+document.addEventListener("dragover", (event) => event.preventDefault());
+document.addEventListener("drop", (event) => {
+  event.preventDefault();
+  if (event.dataTransfer.files[0]) open(event.dataTransfer.files[0]);
+});
 byId("share").onclick = async () => {
   history.replaceState(null, "", await share.fragment({ scene: editor.scene, ...settings() }));
   try {
@@ -317,7 +363,7 @@ const world = ({ clientX, clientY }) => {
   return [6 + (20 * (x - left)) / (right - left), 22 - (20 * (y - top)) / (bottom - top)];
 };
 canvas.onpointerdown = (event) => {
-  if (running || !picture) return;
+  if (running || !picture || !editable) return;
   const [x, y] = world(event);
   const bodies = editor.description.radii.map((radius, k) => ({ k: k < 2 ? k : k, radius, start: editor.start(k) }));
   const hit = bodies.find(({ radius, start }) => Math.hypot(start.x - x, start.y - y) <= radius * 1.2);
@@ -333,7 +379,7 @@ canvas.onpointermove = (event) => {
 };
 canvas.onpointerup = canvas.onpointercancel = () => { dragged = null; };
 canvas.addEventListener("wheel", (event) => {
-  if (running || playhead > 0 || !picture) return;
+  if (running || playhead > 0 || !picture || !editable) return;
   const [x, y] = world(event);
   const agent = [0, 1].find((k) => Math.hypot(editor.start(k).x - x, editor.start(k).y - y) <= editor.description.radii[k] * 1.2);
   if (agent === undefined) return;

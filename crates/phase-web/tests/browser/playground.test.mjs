@@ -75,6 +75,45 @@ test("an event is saved, and opened again", async () => {
   assert.equal(Number(await page.getAttribute("#time", "max")), 5 * steps);
 });
 
+test("an event without labels is opened, and watched", async () => {
+  await begin();
+  await page.click("#run");
+  await page.waitForFunction(() => Number.parseFloat(document.getElementById("clock").textContent) > 2);
+  await page.click("#run");
+  const { format, events: [{ id, layout, walls, agents, objects, trajectory }] } = await saved();
+  const sizes = (bodies) => bodies.map(({ size_level, radius }) => ({ size_level, radius }));
+  const event = { id, layout, walls, agents: sizes(agents), objects: sizes(objects), trajectory };
+  const file = Buffer.from(JSON.stringify({ format, events: [event] }));
+  await page.setInputFiles("#open", { name: "event.json", mimeType: "application/json", buffer: file });
+  await until("an event without labels");
+  await page.locator("#time").evaluate((slider) => { slider.value = slider.max; slider.dispatchEvent(new Event("input")); });
+  await page.waitForSelector("#posterior meter");
+});
+
+test("a video is dropped, tracked and watched", { skip: !process.env.PHASE_VIDEO && "PHASE_VIDEO names no video" }, async () => {
+  await begin();
+  const bytes = (await readFile(process.env.PHASE_VIDEO)).toString("base64");
+  await page.evaluate((bytes) => {
+    const dropped = new DataTransfer();
+    dropped.items.add(new File([Uint8Array.from(atob(bytes), (letter) => letter.charCodeAt(0))], "a film.mp4", { type: "video/mp4" }));
+    document.body.dispatchEvent(new DragEvent("drop", { dataTransfer: dropped, bubbles: true, cancelable: true }));
+  }, bytes);
+  await page.waitForFunction(() => /found in it|wrong/.test(`${document.getElementById("message").textContent} ${document.getElementById("message").className}`), null, { timeout: 120_000 });
+  assert.match(await page.textContent("#message"), /^a-film: a video, with what was found in it\. Restart/);
+  const steps = Number(await page.getAttribute("#time", "max")) / 5;
+  assert.ok(steps >= 8 && steps <= 11, `${steps} steps`);
+  await page.click("#run");
+  await page.waitForFunction(() => Number.parseFloat(document.getElementById("clock").textContent) > 1);
+  await page.waitForSelector("#posterior meter");
+  if (process.env.PHASE_SCREENSHOTS) await page.screenshot({ path: `${process.env.PHASE_SCREENSHOTS}/film.png`, fullPage: true });
+  await page.click("#restart");
+});
+
+test("a video that is none is refused in a sentence", async () => {
+  await page.setInputFiles("#open", { name: "rubbish.mp4", mimeType: "video/mp4", buffer: Buffer.from("no video") });
+  await until("rubbish.mp4: this browser cannot decode it");
+});
+
 test("rubbish is refused in a sentence", async () => {
   for (const rubbish of ["", "{}", "[1, 2]", '{"format": "phase-events/1", "events": [{}]}']) {
     await page.setInputFiles("#open", { name: "rubbish.json", mimeType: "application/json", buffer: Buffer.from(rubbish) });

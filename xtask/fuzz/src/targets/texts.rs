@@ -19,7 +19,7 @@ use phase_study::{
     question::Responses,
 };
 use phase_tensors::TensorFile;
-use phase_track::{Picture, TableOptions, Tracker};
+use phase_track::{Picture, Survey, TableOptions, Tracker};
 use serde_json::json;
 use std::{path::Path, sync::LazyLock};
 
@@ -187,4 +187,41 @@ pub(super) fn pictures(data: &[u8]) {
     let Ok(track) = tracker.finish() else { return };
     let (event, _) = track.event(track.meaning(), None).expect("what is tracked is an event");
     assert!(event.steps() > 0);
+}
+
+/// Rectangles that move over a white ground, six bytes each: x, y, side, both speeds and a colour.
+pub(super) fn shapes(data: &[u8]) {
+    const SIDE: usize = 64;
+    let frames = (0..8_usize).map(|frame| {
+        let mut pixels = vec![255; 3 * SIDE * SIDE];
+        for shape in data.chunks_exact(6).take(12) {
+            let [x, y, side, across, down, colour] = [0, 1, 2, 3, 4, 5].map(|k| usize::from(shape[k]));
+            let moved = |start: usize, speed: usize| (start + frame * speed) % SIDE;
+            for row in moved(y, down)..(moved(y, down) + side % 24).min(SIDE) {
+                for column in moved(x, across)..(moved(x, across) + side % 24).min(SIDE) {
+                    let k = 3 * (row * SIDE + column);
+                    let channels = [colour % 4 * 60, colour / 4 % 4 * 60, colour / 16 % 4 * 60];
+                    pixels[k..k + 3].copy_from_slice(&channels.map(|channel| channel as u8));
+                }
+            }
+        }
+        pixels
+    });
+    let frames: Vec<Vec<u8>> = frames.collect();
+    let pictures = || frames.iter().map(|it| Picture::new(SIDE, SIDE, it).expect("a picture of a good size"));
+    let mut survey = Survey::new();
+    for picture in pictures() {
+        survey.push(&picture).expect("pictures of one size");
+    }
+    let Ok(mut tracker) = survey.finish() else { return };
+    for (frame, picture) in pictures().enumerate() {
+        tracker.push(&picture, frame as f64 / 8.0).expect("pictures of one size");
+    }
+    let Ok(track) = tracker.finish() else { return };
+    // Paths may all lie in one place.
+    let Ok((event, tracking)) = track.event(None) else { return };
+    let events = [("fuzz", &event, Some(&tracking))];
+    let text = phase_event::observed_to_json(&events).expect("what is read can be written");
+    let again = phase_event::parse_observed(text.as_bytes()).expect("what is written can be read");
+    assert_eq!(again[0].1.missing(), event.missing());
 }
