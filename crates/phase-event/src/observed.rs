@@ -95,7 +95,7 @@ impl ObservedEvent {
         Self { missing, ..self }
     }
 
-    /// What was not to be seen; nothing for events that were not read from a video.
+    /// The parts that were not to be seen; none for events that were not read from a video.
     #[must_use]
     pub const fn missing(&self) -> Missing {
         self.missing

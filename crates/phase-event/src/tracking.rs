@@ -29,7 +29,7 @@ pub struct Missing {
 }
 
 impl Missing {
-    /// What a viewer of the event cannot judge, each as a sentence.
+    /// All that a viewer of the event cannot judge, each as a sentence.
     #[must_use]
     pub fn sentences(self) -> Vec<String> {
         let mut sentences = Vec::new();
@@ -65,7 +65,7 @@ pub struct Tracking {
     pub straight: bool,
     /// Share of all poses that were hidden, 0 to 1.
     pub hidden: f64,
-    /// What was not to be seen, and what the event lacks.
+    /// Parts that were not to be seen, or that the event lacks.
     pub missing: Missing,
     /// Standard deviations of the columns of every row, in their units: by body, agents first, as long as the
     /// trajectory.

@@ -1,9 +1,9 @@
 //! PHASE in a browser: what the playground's pages call, as WebAssembly.
 //!
 //! A [`PageSimulation`] simulates a scene step by step, with minds or people's actions; a [`PageObserver`]
-//! infers goals and relation while an event runs; a [`PageTracker`] reads videos; a [`Picture`] draws as the videos are drawn; [`scenes`]
-//! checks, describes and samples scenes, and reads files of events. Everything is exchanged as JSON in the
-//! formats of `docs/reference/formats/overview.md`, or as 32-bit floats where there is one for each body and
+//! infers goals and relation while an event runs; a [`PageTracker`] reads videos; a [`Picture`] draws as the
+//! videos are drawn; [`scenes`] checks, describes and samples scenes, and reads files of events. Everything
+//! is exchanged as JSON in the formats of `docs/reference/formats/overview.md`, or as 32-bit floats where there is one for each body and
 //! step ([`packed`]).
 //!
 //! Key design decision: the browser runs the same code as the command line, physics, minds, inference and

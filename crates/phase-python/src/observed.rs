@@ -137,7 +137,7 @@ impl Observed {
         self.event.noise().map(|noise| (noise.position, noise.velocity, noise.angle))
     }
 
-    /// What cannot be judged of the event, each as a sentence.
+    /// All that cannot be judged of the event, each as a sentence.
     #[getter]
     fn not_judged(&self) -> Vec<String> {
         self.event.missing().sentences()

@@ -251,7 +251,7 @@ impl Planners {
     }
 }
 
-/// What the intent network and distances say of motion that the minds cannot have made.
+/// The answer of the intent network and of distances to motion that the minds cannot have made.
 fn foreign(observed: &ObservedEvent, gamma: f64, guess: Option<&Guess>) -> Posterior {
     let cue = |gamma| Proposal::new(observed, 0..=observed.steps(), gamma, &UniformStrength).posterior();
     let [of_network, of_distances] = FOREIGN_SHARES;

@@ -11,7 +11,7 @@ use phase_model::{
 
 /// Lines of one direction that may be edges of the arena: half of them from either side.
 const MOST_PEAKS: usize = 8;
-/// Where the rim of a landmark begins, from its middle to its edge.
+/// The place, from the middle of a landmark to its edge, at which its rim begins.
 const RIM: f32 = 0.7;
 /// Squares of lines that may be the arena.
 const MOST_FRAMES: usize = 16;

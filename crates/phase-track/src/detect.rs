@@ -38,6 +38,7 @@ pub(crate) fn bodies(
     picture: &Picture<'_>,
     stage: &Stage,
     ground: &[u8],
+    negative: bool,
 ) -> Result<(f32, Vec<Found>), TrackError> {
     let walls = stage.layout.walls();
     let patches = patches(picture, stage, &walls);
@@ -47,7 +48,10 @@ pub(crate) fn bodies(
             Surroundings { picture, ground, view: stage.view, soft, above: &[], below: &[], others: &[] };
         let looks = OUTLINES
             .into_iter()
-            .flat_map(|[outline, margin]| [true, false].map(|eyes| Look { outline, margin, eyes }));
+            .flat_map(|[outline, margin]| [true, false].map(|eyes| Look { outline, margin, eyes, negative }))
+            // Eyes may be the same on any ground, or the negative of those on a light one.
+            .flat_map(|look| [Some(look), negative.then_some(Look { negative: false, ..look })])
+            .flatten();
         for look in looks {
             let found: Vec<Found> =
                 (0..patches.len()).filter_map(|k| identify(&surroundings, &patches, k, look)).collect();
@@ -71,8 +75,9 @@ pub(crate) fn bodies(
         return Err(TrackError::Bodies { agents: agents.len(), objects: objects.len() });
     }
     // Red before green, blue before pink, as palettes have them.
-    agents.sort_by(|a, b| hue(a.body.colour).total_cmp(&hue(b.body.colour)));
-    objects.sort_by(|a, b| blueness(b.body.colour).total_cmp(&blueness(a.body.colour)));
+    let shown = |found: &Found| found.body.colour.map(|it| if negative { 255.0 - it } else { it });
+    agents.sort_by(|a, b| hue(shown(a)).total_cmp(&hue(shown(b))));
+    objects.sort_by(|a, b| blueness(shown(b)).total_cmp(&blueness(shown(a))));
     agents.append(&mut objects);
     Ok((soft, agents))
 }

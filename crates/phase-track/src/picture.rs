@@ -45,6 +45,11 @@ impl<'a> Picture<'a> {
     }
 }
 
+/// The bytes of a picture in which light is dark.
+pub(crate) fn negative(picture: &Picture<'_>) -> Vec<u8> {
+    picture.rgb.iter().map(|channel| 255 - channel).collect()
+}
+
 /// Distance of two colours, 0 to 442.
 pub(crate) fn distance(a: Rgb, b: Rgb) -> f32 {
     square(a, b).sqrt()

@@ -30,10 +30,12 @@ pub(crate) struct Look {
     pub(crate) margin: f32,
     /// Whether agents have eyes.
     pub(crate) eyes: bool,
+    /// Whether light is dark: the picture is the negative of one with light lines on a dark ground.
+    pub(crate) negative: bool,
 }
 
-/// Colour of outlines.
-const OUTLINE: Rgb = [40.0; 3];
+/// Brightness of outlines.
+const OUTLINE: f32 = 40.0;
 
 /// A body as it is drawn.
 #[derive(Clone, Copy, Debug)]
@@ -76,9 +78,10 @@ impl Appearance {
         if depth > 0.5 * soft + if self.look.eyes { 0.1 * self.radius } else { 0.0 } {
             return under;
         }
+        let as_seen = |level: f32| [if self.look.negative { 255.0 - level } else { level }; 3];
         let mut inside = self.colour;
         if outline > 0.0 {
-            inside = mix(OUTLINE, inside, share(depth + outline));
+            inside = mix(as_seen(OUTLINE), inside, share(depth + outline));
         }
         let mut colour = mix(under, inside, share(depth));
         if self.look.eyes && self.form == Form::Trapezoid {
@@ -87,9 +90,9 @@ impl Appearance {
             let disc = |centre: f32, radius: f32| {
                 (0.5 - (unit.distance(Vec2::new(0.5, centre)) - radius) / soft).clamp(0.0, 1.0)
             };
-            colour = mix(colour, [0.0; 3], disc(0.5, 0.335));
-            colour = mix(colour, [255.0; 3], disc(0.5, 0.291));
-            colour = mix(colour, [0.0; 3], disc(0.7, 0.224));
+            colour = mix(colour, as_seen(0.0), disc(0.5, 0.335));
+            colour = mix(colour, as_seen(255.0), disc(0.5, 0.291));
+            colour = mix(colour, as_seen(0.0), disc(0.7, 0.224));
         }
         colour
     }

@@ -1,6 +1,6 @@
 //! Tracks of videos that are drawn here, pixel by pixel from the definitions of the shapes, and damaged.
 
-use phase_model::{Layout, Segment, Vec2, arena};
+use phase_model::{Layout, Segment, Size, Vec2, arena};
 use phase_track::{Form, FrameMeaning, Picture, Pose, Roles, Survey, Track, TrackError, Tracker};
 
 type Rgb = [f32; 3];
@@ -171,6 +171,36 @@ fn the_published_style_is_read_to_a_fraction_of_a_pixel() {
     let (place, turn) = errors(&track, walk);
     assert!(place < 0.1 && turn < 0.05, "{place} u, {turn} rad");
     assert_eq!(track.meaning(), FrameMeaning::Substeps);
+}
+
+/// The negative of a picture has light lines on a dark ground.
+#[test]
+fn light_lines_on_a_dark_ground_are_read() {
+    let mut tracker = Tracker::new();
+    for frame in 0..8 {
+        let seconds = frame as f32 / 20.0;
+        let mut bytes = PUBLISHED.draw(&walk(seconds), frame);
+        bytes.iter_mut().for_each(|channel| *channel = 255 - *channel);
+        let picture = Picture::new(640, 480, &bytes).expect("a picture");
+        tracker.push(&picture, f64::from(seconds)).expect("tracked");
+    }
+    let track = tracker.finish().expect("a track");
+    // Red is now cyan, and still told by its own colour.
+    let cyan = track.bodies.iter().position(|body| body.colour[0] < 60 && body.colour[1] > 200);
+    assert_eq!(cyan, Some(1));
+    let order = |seconds: f32| {
+        let mut poses = walk(seconds);
+        poses.swap(0, 1);
+        poses
+    };
+    let objects_too = errors(&track, |seconds| {
+        let mut poses = order(seconds);
+        if track.bodies[2].size == Size::Medium {
+            poses.swap(2, 3);
+        }
+        poses
+    });
+    assert!(objects_too.0 < 0.1 && objects_too.1 < 0.05, "{objects_too:?}");
 }
 
 #[test]

@@ -27,7 +27,7 @@ pub struct Answered {
     pub answer: Answer,
     /// CPU time that it took (s).
     pub cpu_seconds: f64,
-    /// What nobody can judge of the event, each as a sentence.
+    /// All that nobody can judge of the event, each as a sentence.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub not_judged: Vec<String>,
     /// Details that the method adds.

@@ -33,9 +33,9 @@ use strength::LevelCosts;
 /// Residual up to which a step counts as explained (u).
 pub const EXPLAINED_RESIDUAL: f32 = 0.05;
 
-/// Median residual (u) from which on measured motion obeys another physics. Of 50 recordings that were drawn at
-/// half size, compressed by x264 with CRF 35 and tracked, the worst has 0.47; random walks, straight lines and
-/// recordings at three times their speed have 0.6 and more.
+/// Median residual (u) above which measured motion obeys another physics. Of 50 recordings that were drawn
+/// at half size, compressed by x264 with CRF 35 and tracked, the worst has 0.47; random walks and straight
+/// lines between random places have 0.6 and more.
 const FOREIGN_RESIDUAL: f32 = 0.55;
 
 /// An event explained by what its agents did.

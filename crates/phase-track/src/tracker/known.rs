@@ -61,7 +61,13 @@ pub(super) struct Known {
 }
 
 impl Known {
-    pub(super) fn begin(picture: &Picture<'_>, frame: usize, now: f64) -> Result<Self, TrackError> {
+    /// The bodies in a picture, `negative` if that is one of light lines on a dark ground.
+    pub(super) fn begin(
+        picture: &Picture<'_>,
+        frame: usize,
+        now: f64,
+        negative: bool,
+    ) -> Result<Self, TrackError> {
         let stage = Stage::find(picture, frame)?;
         let walls = stage.layout.walls();
         let (width, height) = picture.size();
@@ -80,7 +86,7 @@ impl Known {
                 }
             }
         }
-        let (soft, found) = detect::bodies(picture, &stage, &ground)?;
+        let (soft, found) = detect::bodies(picture, &stage, &ground, negative)?;
         let followed = found.iter().map(|&Found { body, size, fit }| Followed {
             body,
             size,

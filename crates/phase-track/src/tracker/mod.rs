@@ -4,8 +4,8 @@ mod known;
 
 use crate::{
     TrackError,
-    arena::View,
-    picture::Picture,
+    arena::{Stage, View},
+    picture::{Picture, negative},
     shape::{Form, Pose},
 };
 use known::{Followed, Known};
@@ -63,6 +63,8 @@ pub struct Tracker {
     /// The frame in which they are looked for next.
     next_attempt: usize,
     known: Option<Known>,
+    /// Whether lines are light on a dark ground: pictures are then replaced by their negatives.
+    negative: bool,
     /// Why the frames so far were not understood.
     refusal: Option<TrackError>,
     moments: Vec<Moment>,
@@ -87,6 +89,7 @@ impl Tracker {
             waiting: Vec::new(),
             next_attempt: 0,
             known: None,
+            negative: false,
             refusal: None,
             moments: Vec::new(),
             least_interval: f64::INFINITY,
@@ -112,12 +115,23 @@ impl Tracker {
             self.greatest_interval = self.greatest_interval.max(interval);
         }
         self.last_seconds = seconds;
+        if self.first_seconds.is_none() && !self.negative {
+            let shows_none = |picture: &Picture<'_>| {
+                matches!(Stage::find(picture, frame), Err(TrackError::NoArena { .. }))
+            };
+            let (width, height) = picture.size();
+            self.negative =
+                shows_none(picture) && !shows_none(&Picture::new(width, height, &negative(picture))?);
+        }
+        let bytes = if self.negative { negative(picture) } else { Vec::new() };
+        let (width, height) = picture.size();
+        let picture = if self.negative { &Picture::new(width, height, &bytes)? } else { picture };
         let Some(known) = &mut self.known else {
             let now = self.first_seconds.map_or(0.0, |first| seconds - first);
             // Looking for bodies takes as long as following them through many frames.
             let begun = match &self.refusal {
                 Some(error) if frame < self.next_attempt => Err(error.clone()),
-                _ => Known::begin(picture, frame, now),
+                _ => Known::begin(picture, frame, now, self.negative),
             };
             match begun {
                 Ok(known) => {
@@ -191,7 +205,10 @@ impl Tracker {
         let body = |followed: &Followed| TrackedBody {
             form: followed.body.form,
             size: followed.size,
-            colour: followed.body.colour.map(|channel| channel.round().clamp(0.0, 255.0) as u8),
+            colour: followed.body.colour.map(|channel| {
+                let channel = channel.round().clamp(0.0, 255.0) as u8;
+                if self.negative { 255 - channel } else { channel }
+            }),
         };
         Ok(Track {
             view: known.stage.view,

@@ -1,31 +1,25 @@
 //! Shapes of any form that move over a plain ground, where no arena with agents is to be seen.
 //!
 //! A video is watched twice: a [`Survey`] finds what does not move and the colours of the rest, and a
-//! [`ShapeTracker`] then follows the shapes by colour, place and size. Shapes may have one colour, as in Heider
-//! and Simmel's film; those that touch are then divided in proportion to their sizes.
+//! [`ShapeTracker`] then follows the shapes by colour, place and size. Shapes may have one colour, as in
+//! Heider and Simmel's film; those that touch are then divided in proportion to their sizes.
+
+mod survey;
+mod track;
+
+pub use survey::Survey;
+pub use track::{Shape, ShapeTrack};
 
 use crate::{
-    BodyRows, Picture, Roles, TrackError, View,
+    Picture, TrackError, View,
     arena::Stage,
-    detect::{commonest, mean},
-    event::{event, noise},
     picture::{Rgb, distance},
-    table::{Line, rows, scale},
 };
-use phase_event::{Missing, Noise, ObservedEvent, Tracking};
-use phase_model::{AGENT_COUNT, Layout, MAX_ENTITIES, MAX_OBJECTS, Size, Vec2, arena::STEP_VIDEO_SECONDS};
-use std::fmt::Write as _;
+use phase_model::{AGENT_COUNT, Vec2, arena::STEP_VIDEO_SECONDS};
+use survey::{components, reduced};
 
-/// Longest side of a picture in which shapes are looked for (pixels); larger ones are reduced.
-const LONGEST_SIDE: usize = 640;
-/// Pictures of which the ground is the median: half as many at least.
-const PICTURES: usize = 24;
 /// Difference of colour that is more than noise.
 const DIFFERENT: f32 = 45.0;
-/// Least share of the picture that has the colour of the floor.
-const LEAST_FLOOR: f32 = 0.3;
-/// Colours that are told apart.
-const MOST_COLOURS: usize = 10;
 /// Area of shapes: least and greatest, as shares of the picture.
 const AREA: [f32; 2] = [0.0004, 0.15];
 /// Greatest distance from the middle of a shape to its edge, in radii of a disc of its area; lines have more.
@@ -40,187 +34,6 @@ const LEAST_SEEN: f32 = 0.3;
 const HALF_LIFE: f64 = 0.25;
 /// Error of a place in sight, as a share of the shape's radius.
 const ERROR: f32 = 0.05;
-/// Error of a heading that is that of motion (rad).
-const HEADING: f32 = 0.5;
-
-/// A picture with sides of [`LONGEST_SIDE`] pixels at most, and how many pixels became one across.
-fn reduced(picture: &Picture<'_>) -> (usize, usize, usize, Vec<u8>) {
-    let (width, height) = picture.size();
-    let factor = width.max(height).div_ceil(LONGEST_SIDE);
-    if factor == 1 {
-        return (width, height, 1, picture.bytes().to_vec());
-    }
-    let (across, down) = (width / factor, height / factor);
-    let mut bytes = Vec::with_capacity(3 * across * down);
-    for y in 0..down {
-        for x in 0..across {
-            let mut sum = [0_u32; 3];
-            for row in picture.bytes().chunks_exact(3 * width).skip(y * factor).take(factor) {
-                for pixel in row[3 * x * factor..3 * (x + 1) * factor].chunks_exact(3) {
-                    sum = [0, 1, 2].map(|k| sum[k] + u32::from(pixel[k]));
-                }
-            }
-            bytes.extend(sum.map(|sum| (sum / (factor * factor) as u32) as u8));
-        }
-    }
-    (across, down, factor, bytes)
-}
-
-/// Watches a video for the first time: what stays, and the colours of what does not.
-#[derive(Debug, Default)]
-pub struct Survey {
-    frames: usize,
-    /// Every so many frames are kept.
-    every: usize,
-    kept: Vec<Vec<u8>>,
-    /// Size of a picture, and of a reduced one.
-    size: (usize, usize),
-    small: (usize, usize),
-}
-
-impl Survey {
-    /// A survey that has seen nothing.
-    #[must_use]
-    pub fn new() -> Self {
-        Self { every: 1, ..Self::default() }
-    }
-
-    /// Takes the next frame.
-    ///
-    /// # Errors
-    /// [`TrackError::Resized`].
-    pub fn push(&mut self, picture: &Picture<'_>) -> Result<(), TrackError> {
-        let frame = self.frames;
-        self.frames += 1;
-        if frame > 0 && picture.size() != self.size {
-            return Err(TrackError::Resized { frame });
-        }
-        self.size = picture.size();
-        if frame.is_multiple_of(self.every.max(1)) {
-            if self.kept.len() == PICTURES {
-                let mut odd = false;
-                self.kept.retain(|_| {
-                    odd = !odd;
-                    odd
-                });
-                self.every *= 2;
-                if !frame.is_multiple_of(self.every) {
-                    return Ok(());
-                }
-            }
-            let (width, height, _, bytes) = reduced(picture);
-            self.small = (width, height);
-            self.kept.push(bytes);
-        }
-        Ok(())
-    }
-
-    /// A tracker of all that moves over the ground.
-    ///
-    /// # Errors
-    /// [`TrackError::Shapes`] if the ground has no plain colour or nothing moves on it;
-    /// [`TrackError::Short`] without frames.
-    pub fn finish(self) -> Result<ShapeTracker, TrackError> {
-        if self.kept.len() < 3 {
-            return Err(TrackError::Short { frames: self.frames, seconds: 0.0 });
-        }
-        let (width, height) = self.small;
-        let area = width * height;
-        let middle = |k: usize| {
-            let mut values: Vec<u8> = self.kept.iter().map(|bytes| bytes[k]).collect();
-            let half = values.len() / 2;
-            *values.select_nth_unstable(half).1
-        };
-        let ground: Vec<u8> = (0..3 * area).map(middle).collect();
-        let at = |bytes: &[u8], k: usize| [0, 1, 2].map(|channel| f32::from(bytes[3 * k + channel]));
-        let pixels: Vec<(Vec2, Rgb)> = (0..area).map(|k| (Vec2::ZERO, at(&ground, k))).collect();
-        let floor = commonest(&pixels).unwrap_or([255.0; 3]);
-        let near = pixels.iter().map(|(_, colour)| *colour).filter(|it| distance(*it, floor) < DIFFERENT);
-        let share = near.clone().count() as f32 / area as f32;
-        let floor = mean(near);
-        if share < LEAST_FLOOR {
-            let rule = format!("its ground has no plain colour ({:.0} % at most)", 100.0 * share);
-            return Err(TrackError::Shapes(rule));
-        }
-        // What is in the ground but leaves its place is a shape that rested for long.
-        let mut stays: Vec<bool> = (0..area).map(|k| distance(at(&ground, k), floor) > DIFFERENT).collect();
-        for patch in components(&stays, width) {
-            let left = self.kept.iter().any(|bytes| {
-                let gone = patch.iter().filter(|&&k| distance(at(bytes, k), floor) < DIFFERENT).count();
-                2 * gone > patch.len()
-            });
-            if left {
-                patch.iter().for_each(|&k| stays[k] = false);
-            }
-        }
-        let mut tracker = ShapeTracker {
-            size: self.size,
-            small: self.small,
-            floor,
-            ground,
-            stays,
-            colours: Vec::new(),
-            frames: Vec::new(),
-            followed: Vec::new(),
-        };
-        let mut moving: Vec<(Vec2, Rgb)> = Vec::new();
-        for bytes in &self.kept {
-            moving.extend((0..area).filter(|&k| tracker.moves(bytes, k)).map(|k| (Vec2::ZERO, at(bytes, k))));
-        }
-        let least = AREA[0] * area as f32;
-        while tracker.colours.len() < MOST_COLOURS {
-            let Some(mut colour) = commonest(&moving) else { break };
-            for _ in 0..3 {
-                let near = moving.iter().map(|(_, it)| *it).filter(|it| distance(*it, colour) < DIFFERENT);
-                if near.clone().next().is_some() {
-                    colour = mean(near);
-                }
-            }
-            let before = moving.len();
-            moving.retain(|(_, it)| distance(*it, colour) >= DIFFERENT);
-            if ((before - moving.len()) as f32) < 0.3 * least * self.kept.len() as f32 {
-                break;
-            }
-            tracker.colours.push(colour);
-        }
-        if tracker.colours.is_empty() {
-            return Err(TrackError::Shapes("nothing moves in it".into()));
-        }
-        Ok(tracker)
-    }
-}
-
-/// The connected parts of a mask.
-fn components(mask: &[bool], width: usize) -> Vec<Vec<usize>> {
-    let mut left = mask.to_vec();
-    let mut parts = Vec::new();
-    for start in 0..mask.len() {
-        if !left[start] {
-            continue;
-        }
-        left[start] = false;
-        let mut part = vec![start];
-        let mut next = 0;
-        while let Some(&k) = part.get(next) {
-            next += 1;
-            let x = k % width;
-            let beside = [
-                (x > 0).then(|| k - 1),
-                (x + 1 < width).then_some(k + 1),
-                k.checked_sub(width),
-                (k + width < mask.len()).then_some(k + width),
-            ];
-            for k in beside.into_iter().flatten() {
-                if left[k] {
-                    left[k] = false;
-                    part.push(k);
-                }
-            }
-        }
-        parts.push(part);
-    }
-    parts
-}
 
 /// A shape that is followed.
 #[derive(Clone, Debug)]
@@ -285,8 +98,8 @@ impl ShapeTracker {
     /// Takes the next frame, shown at a time (s).
     ///
     /// # Errors
-    /// [`TrackError::Resized`], [`TrackError::Long`] for more than an hour, and [`TrackError::Uneven`] if time
-    /// does not grow.
+    /// [`TrackError::Resized`], [`TrackError::Long`] for more than an hour, and [`TrackError::Uneven`] if
+    /// time does not grow.
     pub fn push(&mut self, picture: &Picture<'_>, seconds: f64) -> Result<(), TrackError> {
         let frame = self.frames.len();
         if picture.size() != self.size {
@@ -503,131 +316,4 @@ fn inside(shape: &FollowedShape, other: &FollowedShape) -> bool {
         }
     }
     10 * within > 9 * both && 2 * both > shape.path.len()
-}
-
-/// A shape that moved.
-#[derive(Clone, PartialEq, Debug)]
-pub struct Shape {
-    /// Its colour.
-    pub colour: [u8; 3],
-    /// Radius of a disc of its area (pixels).
-    pub radius: f32,
-    /// The middle of its area in every frame (pixels from the upper left corner).
-    pub path: Vec<Vec2>,
-    /// Share of the frames in which it was seen; elsewhere its path goes straight.
-    pub seen: f64,
-    /// Root mean square of the estimated errors of its places (pixels).
-    pub error: f32,
-}
-
-impl Shape {
-    /// The length of its path (pixels), without the trembling of its edges.
-    fn travelled(&self) -> f32 {
-        let mut sum = 0.0;
-        let mut from = self.path[0];
-        for place in &self.path {
-            if place.distance(from) > 0.25 * self.radius {
-                sum += place.distance(from);
-                from = *place;
-            }
-        }
-        sum
-    }
-}
-
-/// The shapes of a video, those that moved farthest first.
-#[derive(Clone, PartialEq, Debug)]
-pub struct ShapeTrack {
-    /// Two shapes or more.
-    pub shapes: Vec<Shape>,
-    /// Time of every frame (s).
-    pub seconds: Vec<f64>,
-    /// Frames a second.
-    pub frame_rate: f64,
-    /// The arena, its layout, and whether it has landmarks, if there is one.
-    stage: Option<(View, Layout, bool)>,
-}
-
-impl ShapeTrack {
-    /// All places as a table with the columns `time` (s), `body` (a number from 1), `x` and `y` (pixels, y
-    /// down).
-    #[must_use]
-    pub fn table(&self) -> String {
-        let mut text = String::from("time,body,x,y\n");
-        for (frame, seconds) in self.seconds.iter().enumerate() {
-            for (k, shape) in self.shapes.iter().enumerate() {
-                let Vec2 { x, y } = shape.path[frame];
-                let _ = writeln!(text, "{seconds:.4},{},{x:.2},{y:.2}", k + 1);
-            }
-        }
-        text
-    }
-
-    /// An event in which the two shapes that moved farthest are the agents and the next two the objects,
-    /// unless roles say otherwise. Agents face where they move. Without an arena, the event has no walls,
-    /// paths are fitted into it, and each size is the nearest of the four.
-    ///
-    /// # Errors
-    /// [`TrackError::Map`] if roles name a shape that is not there, [`TrackError::Short`] below one step.
-    pub fn event(&self, roles: Option<&Roles>) -> Result<(ObservedEvent, Tracking), TrackError> {
-        let all: Vec<[u8; 3]> = self.shapes.iter().map(|shape| shape.colour).collect();
-        let order = match roles {
-            Some(roles) => roles.order(&all, |_, _| true)?,
-            None => (0..self.shapes.len().min(MAX_ENTITIES)).collect(),
-        };
-        let start = self.seconds.first().copied().unwrap_or_default();
-        let steps =
-            ((self.seconds.last().copied().unwrap_or(start) - start) / STEP_VIDEO_SECONDS + 1e-6) as usize;
-        let lines: Vec<Vec<Line>> = order
-            .iter()
-            .map(|&k| {
-                let line =
-                    |(seconds, place): (&f64, &Vec2)| (*seconds, [place.x, place.y].map(f64::from), None);
-                self.seconds.iter().zip(&self.shapes[k].path).map(line).collect()
-            })
-            .collect();
-        let (factor, offset) = match &self.stage {
-            Some((view, _, _)) => {
-                let origin = view.pixel(Vec2::ZERO);
-                let factor = 1.0 / f64::from(view.scale);
-                (factor, [-f64::from(origin.x) * factor, f64::from(origin.y) * factor])
-            }
-            None => scale(&lines, None, true)?,
-        };
-        let mut bodies: Vec<BodyRows> =
-            lines.iter().map(|line| rows(line, start, steps, (factor, offset), true)).collect();
-        for (body, &k) in bodies.iter_mut().zip(&order) {
-            let position = self.shapes[k].error * factor as f32;
-            let velocity = position / phase_model::arena::STEP_SECONDS as f32;
-            body.deviations.fill([position, position, velocity, velocity, HEADING]);
-        }
-        let size = |&k: &usize| {
-            let radius = self.shapes[k].radius * factor as f32;
-            let off = |size: &Size| (size.radius() - radius).abs();
-            Size::ALL.into_iter().min_by(|a, b| off(a).total_cmp(&off(b))).unwrap_or(Size::Medium)
-        };
-        let sizes: Vec<Size> = order.iter().map(size).collect();
-        let Noise { position, velocity, .. } = noise(&bodies);
-        let seen: f64 = order.iter().map(|&k| self.shapes[k].seen).sum();
-        let tracking = Tracking {
-            noise: Noise { position, velocity, angle: HEADING },
-            frames: self.seconds.len() as u32,
-            frame_rate: self.frame_rate,
-            straight: true,
-            hidden: 1.0 - seen / order.len() as f64,
-            missing: Missing {
-                forms: true,
-                walls: self.stage.is_none(),
-                landmarks: self.stage.is_none_or(|(_, _, landmarks)| !landmarks),
-                bodies: (self.shapes.len() - order.len()) as u32,
-            },
-            deviations: bodies.iter().map(|body| body.deviations.clone()).collect(),
-        };
-        let layout = match &self.stage {
-            Some((_, layout, _)) => *layout,
-            None => Layout::new(0, None).map_err(|_| TrackError::Walls)?,
-        };
-        debug_assert!(sizes.len() <= AGENT_COUNT + MAX_OBJECTS);
-        Ok((event(layout, &sizes, &bodies)?.with_tracking(&tracking), tracking))
-    }
 }
