@@ -3,8 +3,8 @@
 //! A [`PageSimulation`] simulates a scene step by step, with minds or people's actions; a [`PageObserver`]
 //! infers goals and relation while an event runs; a [`PageTracker`] reads videos; a [`Picture`] draws as the
 //! videos are drawn; [`scenes`] checks, describes and samples scenes, and reads files of events. Everything
-//! is exchanged as JSON in the formats of `docs/reference/formats/overview.md`, or as 32-bit floats where there is one for each body and
-//! step ([`packed`]).
+//! is exchanged as JSON in the formats of `docs/reference/formats/overview.md`, or as 32-bit floats where
+//! there is one for each body and step ([`packed`]).
 //!
 //! Key design decision: the browser runs the same code as the command line, physics, minds, inference and
 //! drawing, and the pages only ask and show. An event that is made in a browser has the bytes that
