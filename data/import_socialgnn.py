@@ -8,10 +8,14 @@
         --counted human_rating_labels_all --ratings ratings.json \\
         --predictions Outputs/Predictions/*_SocialGNN_E --predicted socialgnn.json
 
+    python3 data/import_socialgnn.py Videos_Test_humanratings recordings.json \\
+        --posterior Outputs/Activations/SIMPLE_probabilities_test --table published-simple.csv
+
 All inputs are in the repository Isik-lab/SocialGNN (MIT licence): the files PHASE/Videos_Test_humanratings and
 PHASE/Videos_humanratings; in PHASE/Human_Experiment_Files the raters' sheets (responses_genset, responses) and the
 answers counted (human_rating_labels_all_genset, human_rating_labels_all); what networks answered, in the folder
-Outputs/Predictions. docs/reference/formats/overview.md describes the results. Python 3.9 or later and numpy are needed.
+Outputs/Predictions; and the posteriors of the published SIMPLE, in Outputs/Activations. docs/reference/formats/overview.md
+describes the results. Python 3.9 or later and numpy are needed.
 
 What is read. The file is a pickle: a list whose entry k becomes the event `phase-test-k`, or with `--set main`, for the
 400 other recordings (PHASE/Videos_humanratings), `phase-main-k`; empty entries and catch trials (names that end in `_mm`)
@@ -19,8 +23,9 @@ are skipped.
 An entry is a record with its `name`; recordings.py beside this file says what names and records mean, and what is mended.
 The pickle has no actions.
 Counted answers are a table of pandas, which is read without pandas: a count for each relation by the names of videos.
-A file of a network's answers has two pickles: the right relations by the names of videos, which are not read, and a network's. Each
-file counts as one rater of phase-ratings/1.
+A file of a network's answers has two pickles: the right relations by the names of videos, which are not read, and a
+network's. Each file counts as one rater of phase-ratings/1. A posterior begins with a pickle of pairs, a relation and its probability, by
+the names of videos; it becomes a table for `rdm`, CSV with a row an event.
 
 The pickle is read in a process of its own, with limits on memory and time; only numpy arrays and plain data are
 admitted.
@@ -32,7 +37,7 @@ import re
 import sys
 
 from importer import (Failure, Unusable, answer, ask, column_of, content_of, contents_of, import_numpy, is_reading, main_of,
-                      open_regular, read_json, save, shown, tell)
+                      open_regular, read_json, save, save_text, shown, tell)
 from recordings import RELATIONS, add_angles_option, converted, text
 
 # The published file has 100 entries of at most 101 rows and 1.5 MB.
@@ -42,6 +47,8 @@ MOST_ENTRIES = 1000
 LARGEST_SHEET_BYTES = 1 << 20
 MOST_RATERS = 1000
 ANSWERS_PER_SHEET = 23
+# The date, time and place in a set, with which the name of a recording begins.
+DISTINCT_CHARACTERS = 23
 # Catch trials of each set by layout, and the only right answer to each.
 CATCH_ENDING = "_mm"
 CATCH_TRIALS = {
@@ -129,6 +136,40 @@ def read_counted(path, names):
     if not counts:
         raise Unusable(f"{path}: has no answers about these recordings")
     return {"format": "phase-ratings/1", "ratings": {name: counts[name] for name in sorted(counts)}}, "as counted"
+
+
+def posterior_of(path):
+    """The probabilities of relations, by the names of videos."""
+    content = content_of(path, LARGEST_FILE_BYTES)
+    if type(content) is not dict or not 0 < len(content) <= MOST_ENTRIES:
+        raise Unusable(f"must begin with the relations of 1 to {MOST_ENTRIES} videos")
+    result = {}
+    for name, pairs in content.items():
+        name = os.path.basename(text(name, "the name of a video"))
+        sound = type(pairs) in (list, tuple) and all(type(pair) in (list, tuple) and len(pair) == 2 for pair in pairs)
+        given = {text(relation, "a relation"): float(p) for relation, p in pairs} if sound else {}
+        # Rounded ones may not add up.
+        if not sound or len(given) < len(pairs) or not set(given) <= set(RELATIONS) or abs(sum(given.values()) - 1) > 0.01:
+            raise Unusable(f"video {shown(name)}: must have probabilities of {', '.join(RELATIONS)} that add up to 1")
+        result[name] = given
+    return result
+
+
+def posterior_table(path, names):
+    """The lines of a table of probabilities, a row an event."""
+    # The clips of later studies have other endings.
+    begun = {}
+    for name, ids in names.items():
+        # Where a beginning is that of two recordings, it names neither.
+        begun[name[:DISTINCT_CHARACTERS]] = [] if name[:DISTINCT_CHARACTERS] in begun else ids
+    rows = {}
+    for video, given in ask(__file__, path, "posterior").items():
+        for event_id in names.get(video, begun.get(video[:DISTINCT_CHARACTERS], [])):
+            rows[event_id] = [f"{given.get(relation, 0.0):.6f}" for relation in RELATIONS]
+    if not rows:
+        raise Unusable(f"{path}: has no answers about these recordings")
+    head = ["id", *(f"relation_{relation}" for relation in RELATIONS)]
+    return "".join(",".join(row) + "\n" for row in [head, *([event_id, *rows[event_id]] for event_id in sorted(rows))]), len(rows)
 
 
 def count_predictions(paths, names):
@@ -230,7 +271,8 @@ def count_ratings(folder, names, which):
 
 def run(arguments):
     files = [arguments.file, arguments.out, *arguments.predictions]
-    files += [path for path in (arguments.counted, arguments.ratings, arguments.predicted) if path]
+    others = (arguments.counted, arguments.ratings, arguments.predicted, arguments.posterior, arguments.table)
+    files += [path for path in others if path]
     if len({os.path.realpath(path) for path in files}) < len(files):
         raise Unusable("the files to read and to write must be different")
     recordings = ask(__file__, arguments.file, "recordings", arguments.angles, arguments.set)
@@ -243,6 +285,7 @@ def run(arguments):
     elif arguments.counted:
         ratings, raters = read_counted(arguments.counted, recordings["names"])
     predicted = count_predictions(arguments.predictions, recordings["names"]) if arguments.predictions else None
+    posterior = posterior_table(arguments.posterior, recordings["names"]) if arguments.posterior else None
     save({"format": "phase-events/1", "events": events}, arguments.out)
     catch = recordings["catch"]
     empty = recordings["entries"] - len(events) - catch
@@ -251,6 +294,9 @@ def run(arguments):
     if ratings:
         save(ratings, arguments.ratings)
         tell(f"ratings of {len(ratings['ratings'])} events in {arguments.ratings}, {raters}")
+    if posterior:
+        save_text(posterior[0], arguments.table)
+        tell(f"probabilities of {posterior[1]} events in {arguments.table}")
     if predicted:
         save(predicted, arguments.predicted)
         tell(f"{len(arguments.predictions)} files of answers to {len(predicted['ratings'])} events in {arguments.predicted}")
@@ -269,18 +315,24 @@ def main():
                         help="the recordings of the test set, or the 400 others (PHASE/Videos_humanratings)")
     parser.add_argument("--predictions", metavar="FILE", nargs="+", default=[], help="networks' answers (Outputs/Predictions)")
     parser.add_argument("--predicted", metavar="FILE", help="the phase-ratings/1 file to write of them")
+    parser.add_argument("--posterior", metavar="FILE",
+                        help="the published SIMPLE's (Outputs/Activations/SIMPLE_probabilities_test)")
+    parser.add_argument("--table", metavar="FILE", help="the CSV file to write of it")
     add_angles_option(parser)
     arguments = parser.parse_args()
     if bool(arguments.raters or arguments.counted) != bool(arguments.ratings):
         parser.error("--raters or --counted, and --ratings, go together")
     if bool(arguments.predictions) != bool(arguments.predicted):
         parser.error("--predictions and --predicted go together")
+    if bool(arguments.posterior) != bool(arguments.table):
+        parser.error("--posterior and --table go together")
     main_of(run, arguments)
 
 
 if __name__ == "__main__":
     if is_reading(sys.argv):
         path, what, *options = sys.argv[2:]
-        answer({"recordings": converted_entries, "predictions": predictions_of, "counts": counts_of}[what], path, *options)
+        convert = {"recordings": converted_entries, "predictions": predictions_of, "counts": counts_of, "posterior": posterior_of}
+        answer(convert[what], path, *options)
     else:
         main()

@@ -301,10 +301,14 @@ def ask(script, path, *arguments):
 
 
 def save(content, path):
+    """A file of JSON that is there whole or not at all."""
+    save_text(json.dumps(content, allow_nan=False) + "\n", path)
+
+
+def save_text(line, path):
     """A file that is there whole or not at all. Devices and pipes stay what they are."""
     if os.path.exists(path) and not os.path.isfile(path) or is_descriptor(path):
         raise Failure(f"{path}: cannot be written: what has this name is no regular file")
-    line = json.dumps(content, allow_nan=False) + "\n"
     part = None
     try:
         descriptor, part = tempfile.mkstemp(dir=os.path.dirname(os.path.abspath(path)), prefix=".import-")
