@@ -51,13 +51,15 @@ pub const GOALS: [GoalRow; 7] = [
 pub struct OtherRow {
     /// The method.
     pub method: &'static str,
-    /// Share of recordings in which it names the relation that most raters reported, mean of ten parts of 100.
+    /// Share of recordings in which it names the relation that most raters reported, the mean of ten parts
+    /// of 100.
     pub people: f64,
     /// Share in which it names the generator's relation, if that is published.
     pub generator: Option<f64>,
 }
 
-/// Malik and Isik, Nature Communications 14 (2023), on the recordings that are not in the test set, best first.
+/// Malik and Isik, Nature Communications 14 (2023), on the recordings that are not in the test set, best
+/// first.
 pub const OTHER_RECORDINGS: [OtherRow; 3] = [
     OtherRow { method: "the generator's relation", people: 0.869, generator: Some(1.0) },
     OtherRow { method: "SocialGNN", people: 0.783, generator: None },

@@ -75,8 +75,8 @@ impl PreparedEvent {
         &self.agents
     }
 
-    /// What an agent can be taken to believe after so many steps, from what it could observe. All intents
-    /// share it.
+    /// The belief that an agent can be taken to have after so many steps, from what it could observe. All
+    /// intents share it.
     ///
     /// # Panics
     /// If the event has fewer steps.

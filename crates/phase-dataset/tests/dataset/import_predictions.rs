@@ -53,7 +53,8 @@ keep("other", right, {"elsewhere.mp4": "friendly"})
     assert_eq!(json_of(&folder.join("predicted.json")), wanted);
 }
 
-/// The published SIMPLE's probabilities become a table for dissimilarity matrices; clips have names that end otherwise.
+/// The published SIMPLE's probabilities become a table for dissimilarity matrices; clips have names that end
+/// otherwise.
 #[test]
 fn published_posteriors_become_a_table() {
     let Some(folder) = made_up() else { return };

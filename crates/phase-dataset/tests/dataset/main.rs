@@ -4,6 +4,7 @@ mod boxes;
 mod composition;
 mod croissant;
 mod event_cache;
+mod import_counted;
 mod import_pik;
 mod import_predictions;
 mod import_socialgnn;

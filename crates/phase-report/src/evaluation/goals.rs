@@ -163,7 +163,7 @@ fn beside_published(ours: &str, scores: &RecognitionScores) -> Block {
     Block::Table { head: head(&columns), rows }
 }
 
-/// What was published about the recordings that are not in the test set.
+/// Published results on the recordings that are not in the test set.
 fn other_recordings(ours: &str, scores: &RecognitionScores) -> [Block; 2] {
     let none = || "-".to_owned();
     let people = scores.relation_human.as_ref().map_or_else(none, share);

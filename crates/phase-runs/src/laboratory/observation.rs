@@ -180,8 +180,8 @@ impl Observation {
         if self.method == ObservingMethod::IntentNetwork && self.minds != MindChoice::default() {
             return Err(RunError::Usage("--minds: method \"intent-network\" imagines no minds".into()));
         }
-        let MindChoice { kind, original_random, .. } = self.minds;
-        Ok(Simple::bundled()?.with_minds(kind, self.minds.recorder(), original_random))
+        let minds = &self.minds;
+        Ok(Simple::bundled()?.with_minds(minds.kind, minds.recorder(), minds.original_random))
     }
 
     fn course(
@@ -245,8 +245,7 @@ impl Observation {
         models: &Models,
     ) -> Result<Option<Vec<Vec<Option<f64>>>>, MethodError> {
         let objects = event.object_sizes().len();
-        let ends = (1..).map(|k| (k * self.every).min(event.steps()));
-        let ends = ends.take(event.steps().div_ceil(self.every));
+        let ends = (1..=event.steps().div_ceil(self.every)).map(|k| (k * self.every).min(event.steps()));
         let told = |judgement: &Judgement, prepared: Option<&PreparedEvent>| {
             [answers(judgement, objects), beliefs(prepared)].concat()
         };
