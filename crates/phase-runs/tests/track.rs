@@ -116,7 +116,7 @@ fn damaged_videos_are_refused_or_read() {
     };
     let header = good.windows(4).position(|four| four == b"mdat").unwrap_or(good.len());
     let mut refused = 0;
-    for round in 0..80 {
+    for round in 0..24 {
         let mut bytes = good.clone();
         if round % 4 == 0 {
             bytes.truncate(random(bytes.len()));
@@ -131,7 +131,7 @@ fn damaged_videos_are_refused_or_read() {
         fs::write(&file, &bytes).expect("written");
         refused += usize::from(phase_runs::track::read_mp4(fs::File::open(&file).expect("open")).is_err());
     }
-    assert!(refused >= 20, "{refused}");
+    assert!(refused >= 6, "{refused}");
 }
 
 #[test]
