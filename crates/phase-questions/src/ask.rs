@@ -1,5 +1,7 @@
 //! Everything that can be asked about an event, or about two that differ in one social variable.
 
+mod social;
+
 use crate::{
     Facts, Query,
     facts::nearer,
@@ -9,10 +11,7 @@ use phase_evidence::{
     GoalOutcome,
     selection::{Counterfactual, Ending, check_event},
 };
-use phase_model::{
-    AgentId, Attitude, Entity, EventKind, Goal, LandmarkId, ObjectId, RoomId, Sign, State, arena::LANDMARKS,
-    layout::room_of,
-};
+use phase_model::{AgentId, Entity, Goal, ObjectId, RoomId, State, layout::room_of};
 use phase_perception::observed_set;
 use serde_json::{Value, json};
 
@@ -101,95 +100,6 @@ impl Asker<'_> {
 
     fn first(&self) -> Option<&State> {
         self.facts.track.states.first()
-    }
-
-    /// Relation, kind, roles, goals and strengths: the labels of the scene.
-    fn social(&mut self) {
-        let scene = &self.facts.scene;
-        let objects = scene.objects.len();
-        let stratum = format!("{objects} objects");
-        let labels = json!({ "goals": scene.goals(), "alphas": scene.attitudes(), "kind": scene.kind,
-            "rule": "goals and attitudes of the scene; the event passed the test that it shows its label",
-        });
-        let relation = scene.relation().name().to_owned();
-        self.ask(
-            Query::Relation,
-            texts(["friendly", "adversarial", "neutral"]),
-            relation,
-            stratum.clone(),
-            labels.clone(),
-        );
-        if let (Some(ratings), Some(draft)) = (self.facts.ratings, self.drafts.last_mut()) {
-            let all = ratings.iter().sum::<usize>() as f64;
-            draft.p_human = Some(ratings.iter().map(|&count| count as f64 / all).collect());
-        }
-        let kinds = EventKind::ALL.map(|kind| kind.name().to_owned()).to_vec();
-        self.ask(Query::Kind, kinds, scene.kind.name().to_owned(), stratum, labels.clone());
-        let roles = texts(["helps-0", "helps-1", "hinders-0", "hinders-1", "neither"]);
-        let attitudes = scene.attitudes();
-        // Agents with one goal or with goals that conflict help or hinder each other in a way.
-        if scene.kind == EventKind::Independent {
-            let stratum = self.nearer_to_first_object();
-            self.ask(Query::Role, roles.clone(), "neither".to_owned(), stratum, labels.clone());
-        }
-        for agent in AgentId::ALL {
-            let verb = match attitudes[agent] {
-                Attitude::Help => "helps",
-                Attitude::Hinder => "hinders",
-                Attitude::Neutral => continue,
-            };
-            self.ask(
-                Query::Role,
-                roles.clone(),
-                format!("{verb}-{agent}"),
-                self.nearer_to_first_object(),
-                labels.clone(),
-            );
-        }
-        for agent in AgentId::ALL {
-            let goal = scene.agents[agent].goal;
-            if attitudes[agent] == Attitude::Neutral && goal.sign() == Sign::Positive {
-                self.goal(agent, goal, &labels);
-            }
-        }
-        let strengths = scene.agents.map(|agent| agent.strength);
-        let stronger = match strengths[0].max_force().total_cmp(&strengths[1].max_force()) {
-            core::cmp::Ordering::Greater => "0",
-            core::cmp::Ordering::Less => "1",
-            core::cmp::Ordering::Equal => "equal",
-        };
-        let sizes = scene.agents.map(|agent| agent.size);
-        let stratum = format!("{:?}", sizes[0].radius().total_cmp(&sizes[1].radius()));
-        let forces = strengths.map(|strength| strength.max_force());
-        // The strength has to show: a viewer compares speeds.
-        if Query::Stronger.seen(&self.facts.track).as_deref() == Some(stronger) {
-            let proof =
-                json!({ "max_forces_newton": forces, "rule": "the scene; the stronger one moves faster" });
-            self.ask(Query::Stronger, texts(["0", "1", "equal"]), stronger.to_owned(), stratum, proof);
-        }
-    }
-
-    /// The landmark of a goal, among those at which its subject is not already.
-    fn goal(&mut self, agent: AgentId, goal: Goal, labels: &Value) {
-        let (Some(landmark), Some(first)) = (goal.landmark(), self.first()) else { return };
-        let subject = goal.subject();
-        let place = first.position(subject);
-        let distance = |landmark: &LandmarkId| LANDMARKS[*landmark].distance(place);
-        let nearest = LandmarkId::ALL.into_iter().min_by(|a, b| distance(a).total_cmp(&distance(b)));
-        let Some(nearest) = nearest.filter(|&nearest| nearest != landmark) else { return };
-        let others = LandmarkId::ALL.into_iter().filter(|&it| it != nearest);
-        let values = others.map(|it| it.to_string()).collect();
-        let reached = GoalOutcome::of(&self.facts.track, goal);
-        let mut proof = labels.clone();
-        proof["outcome"] = json!(reached);
-        let what = if matches!(subject, Entity::Agent(_)) { "agent" } else { "object" };
-        self.ask(
-            Query::Goal { agent, subject },
-            values,
-            landmark.to_string(),
-            format!("{what} first at landmark {nearest}"),
-            proof,
-        );
     }
 
     fn nearer_to_first_object(&self) -> String {

@@ -10,9 +10,6 @@ use phase_model::{AgentId, ObjectId, words::Names};
 use rand::{Rng, RngExt, seq::SliceRandom};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Options of a question about the kind of event.
-const KIND_OPTIONS: usize = 4;
-
 /// Makes questions about events. Events of one set follow each other.
 ///
 /// Within a stratum, that is among questions that look alike without motion, every answer is right equally
@@ -118,9 +115,6 @@ fn worded<R: Rng>(drafts: Vec<Draft>, names: &Names, random: &mut R) -> Vec<Ques
         let Draft { query, events, set, until, value, stratum, proof, p_human, .. } = draft;
         let mut others: Vec<String> = draft.values.iter().filter(|it| **it != value).cloned().collect();
         others.shuffle(random);
-        if query == Query::Kind {
-            others.truncate(KIND_OPTIONS - 1);
-        }
         let count = others.len() + 1;
         // Pairs are in place already: left is left.
         let mut values = others;

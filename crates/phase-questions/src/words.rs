@@ -143,7 +143,7 @@ pub(crate) fn question(query: &Query, phrasing: usize, names: &Names) -> String 
                 format!(
                     "Suppose that the {who} had not moved at all. What would that have meant for the {whom}?"
                 ),
-                format!("What difference does the {who} make to the success of the {whom}?"),
+                format!("Had the {who} stood still throughout, how would the {whom} have fared?"),
             ])
         }
         Query::Ahead { entity, after, .. } => {

@@ -1,0 +1,193 @@
+//! Questions about relation, kind, roles, goals and strengths.
+
+use super::{Asker, texts};
+use crate::query::{Query, agent_value};
+use phase_evidence::GoalOutcome;
+use phase_model::{AgentId, Attitude, Entity, EventKind, Goal, LandmarkId, Sign, arena::LANDMARKS};
+use serde_json::{Value, json};
+
+/// Kinds of which a viewer can see that one fits and the others do not: who helps wants what the other wants,
+/// as those who work together do, and rivals keep each other from their goals, as a hinderer does. Which of
+/// two alike is offered is the kind itself, or by chance.
+fn distinct_kinds(kind: EventKind, id: &str) -> Vec<String> {
+    let chance = id.bytes().fold(7_u8, |sum, byte| sum.wrapping_mul(31).wrapping_add(byte));
+    let one_of = |alike: [EventKind; 2], bit: u8| {
+        if alike.contains(&kind) { kind } else { alike[usize::from(chance >> bit & 1)] }
+    };
+    let friendly = one_of([EventKind::Helping, EventKind::Collaborating], 3);
+    let adversarial = one_of([EventKind::Hindering, EventKind::Competing], 5);
+    [friendly, adversarial, EventKind::Chasing, EventKind::Independent]
+        .map(|it| it.name().to_owned())
+        .to_vec()
+}
+
+impl Asker<'_> {
+    /// Whether a viewer can tell the helper from the helped: both pursue one goal, so the helped one has to
+    /// touch the object first.
+    fn shows_who_is_helped(&self, helper: AgentId) -> bool {
+        match self.facts.scene.agents[helper].goal.subject() {
+            Entity::Object(object) => {
+                let first = Query::FirstTouch { object }.seen(&self.facts.track);
+                first == Some(agent_value(helper.other()))
+            }
+            Entity::Agent(_) => false,
+        }
+    }
+
+    /// Relation, kind, roles, goals and strengths: the labels of the scene.
+    pub(super) fn social(&mut self) {
+        let scene = &self.facts.scene;
+        let objects = scene.objects.len();
+        let stratum = format!("{objects} objects");
+        let labels = json!({ "goals": scene.goals(), "alphas": scene.attitudes(), "kind": scene.kind,
+            "rule": "goals and attitudes of the scene; the event passed the test that it shows its label",
+        });
+        let relation = scene.relation().name().to_owned();
+        self.ask(
+            Query::Relation,
+            texts(["friendly", "adversarial", "neutral"]),
+            relation,
+            stratum.clone(),
+            labels.clone(),
+        );
+        if let (Some(ratings), Some(draft)) = (self.facts.ratings, self.drafts.last_mut()) {
+            let all = ratings.iter().sum::<usize>() as f64;
+            draft.p_human = Some(ratings.iter().map(|&count| count as f64 / all).collect());
+        }
+        let kinds = distinct_kinds(scene.kind, &self.facts.id);
+        let stratum = format!("{stratum}, {}", kinds.join(", "));
+        self.ask(Query::Kind, kinds, scene.kind.name().to_owned(), stratum, labels.clone());
+        let roles = texts(["helps-0", "helps-1", "hinders-0", "hinders-1", "neither"]);
+        let attitudes = scene.attitudes();
+        // Agents with one goal or with goals that conflict help or hinder each other in a way.
+        if scene.kind == EventKind::Independent {
+            let stratum = self.nearer_to_first_object();
+            self.ask(Query::Role, roles.clone(), "neither".to_owned(), stratum, labels.clone());
+        }
+        for agent in AgentId::ALL {
+            let verb = match attitudes[agent] {
+                Attitude::Help => "helps",
+                Attitude::Hinder => "hinders",
+                Attitude::Neutral => continue,
+            };
+            if attitudes[agent] == Attitude::Help && !self.shows_who_is_helped(agent) {
+                continue;
+            }
+            self.ask(
+                Query::Role,
+                roles.clone(),
+                format!("{verb}-{agent}"),
+                self.nearer_to_first_object(),
+                labels.clone(),
+            );
+        }
+        for agent in AgentId::ALL {
+            let goal = scene.agents[agent].goal;
+            if attitudes[agent] == Attitude::Neutral && goal.sign() == Sign::Positive {
+                self.goal(agent, goal, &labels);
+            }
+        }
+        let strengths = scene.agents.map(|agent| agent.strength);
+        let stronger = match strengths[0].max_force().total_cmp(&strengths[1].max_force()) {
+            core::cmp::Ordering::Greater => "0",
+            core::cmp::Ordering::Less => "1",
+            core::cmp::Ordering::Equal => "equal",
+        };
+        let sizes = scene.agents.map(|agent| agent.size);
+        let stratum = format!("{:?}", sizes[0].radius().total_cmp(&sizes[1].radius()));
+        let forces = strengths.map(|strength| strength.max_force());
+        // The strength has to show: a viewer compares speeds.
+        if Query::Stronger.seen(&self.facts.track).as_deref() == Some(stronger) {
+            let proof =
+                json!({ "max_forces_newton": forces, "rule": "the scene; the stronger one moves faster" });
+            self.ask(Query::Stronger, texts(["0", "1", "equal"]), stronger.to_owned(), stratum, proof);
+        }
+    }
+
+    /// The landmark of a goal, among those at which its subject is not already.
+    fn goal(&mut self, agent: AgentId, goal: Goal, labels: &Value) {
+        let (Some(landmark), Some(first)) = (goal.landmark(), self.first()) else { return };
+        let subject = goal.subject();
+        let place = first.position(subject);
+        let distance = |landmark: &LandmarkId| LANDMARKS[*landmark].distance(place);
+        let nearest = LandmarkId::ALL.into_iter().min_by(|a, b| distance(a).total_cmp(&distance(b)));
+        let Some(nearest) = nearest.filter(|&nearest| nearest != landmark) else { return };
+        let others = LandmarkId::ALL.into_iter().filter(|&it| it != nearest);
+        let values = others.map(|it| it.to_string()).collect();
+        let reached = GoalOutcome::of(&self.facts.track, goal);
+        let mut proof = labels.clone();
+        proof["outcome"] = json!(reached);
+        let what = if matches!(subject, Entity::Agent(_)) { "agent" } else { "object" };
+        self.ask(
+            Query::Goal { agent, subject },
+            values,
+            landmark.to_string(),
+            format!("{what} first at landmark {nearest}"),
+            proof,
+        );
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::distinct_kinds;
+    use crate::{Facts, Query, ask::about_event};
+    use phase_evidence::Track;
+    use phase_model::{AgentId, Entity, EventKind, ObjectId, Scene};
+    use std::collections::BTreeSet;
+
+    /// Agent 0 helps agent 1, and an agent is at the object from the start.
+    fn at_the_object(first: AgentId) -> Facts {
+        let agent = |alpha: i8, x: f32| {
+            format!(
+                r#"{{"size_level": 1, "strength_level": 1, "alpha": {alpha}, "start": {{"x": {x}, "y": 8, "angle": 0}},
+                    "goal": {{"kind": "object_on_landmark", "object": 0, "landmark": 2, "sign": 1}}}}"#
+            )
+        };
+        let scene = Scene::from_json(&format!(
+            r#"{{"layout": {{"base": 0}}, "agents": [{}, {}], "event": "helping",
+                "objects": [{{"size_level": 1, "start": {{"x": 12, "y": 5}}}}]}}"#,
+            agent(1, 6.0),
+            agent(0, 24.0),
+        ))
+        .expect("a scene");
+        let mut state = scene.initial_state();
+        state.bodies[Entity::Agent(first)].position = state.bodies[Entity::Object(ObjectId::ZERO)].position;
+        let track = Track { physics: scene.physics(), states: vec![state; 41] };
+        Facts { id: "event".into(), set: None, scene, track, inside: None, ratings: None }
+    }
+
+    /// Helper and helped want the same; a viewer tells them apart by who was at the object first.
+    #[test]
+    fn help_is_asked_about_where_the_helped_one_begins() {
+        let roles = |first| -> Vec<String> {
+            let drafts = about_event(&at_the_object(first)).into_iter();
+            drafts.filter(|it| it.query == Query::Role).map(|it| it.value).collect()
+        };
+        assert_eq!(roles(AgentId::ONE), ["helps-0"]);
+        assert!(roles(AgentId::ZERO).is_empty());
+    }
+
+    /// No two kinds that fit alike are offered together, and each of two alike is offered with every other kind.
+    #[test]
+    fn kinds_that_look_alike_are_not_offered_together() {
+        for kind in EventKind::ALL {
+            let offers = (0..64).map(|k| distinct_kinds(kind, &format!("event-{k:04}")));
+            let mut offered = BTreeSet::new();
+            for kinds in offers {
+                assert!(kinds.len() == 4 && kinds.contains(&kind.name().to_owned()), "{kinds:?}");
+                let both = |alike: [&str; 2]| alike.iter().all(|it| kinds.contains(&(*it).to_owned()));
+                assert!(
+                    !both(["helping", "collaborating"]) && !both(["hindering", "competing"]),
+                    "{kinds:?}"
+                );
+                offered.extend(kinds);
+            }
+            let absent = match kind {
+                EventKind::Chasing | EventKind::Independent => 0,
+                _ => 1,
+            };
+            assert_eq!(offered.len(), EventKind::ALL.len() - absent, "{kind:?}: {offered:?}");
+        }
+    }
+}
