@@ -168,7 +168,8 @@ mod tests {
         assert!(roles(AgentId::ZERO).is_empty());
     }
 
-    /// No two kinds that fit alike are offered together, and each of two alike is offered with every other kind.
+    /// No two kinds that fit alike are offered together, and each of two alike is offered with every other
+    /// kind.
     #[test]
     fn kinds_that_look_alike_are_not_offered_together() {
         for kind in EventKind::ALL {
