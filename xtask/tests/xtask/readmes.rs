@@ -70,7 +70,7 @@ fn examples_are_whole_programs_in_projects_of_their_own() {
     }
 }
 
-/// What a user may depend on alone is what these tests compile.
+/// Every crate that the documents offer for use alone is among those that these tests compile.
 #[test]
 fn the_crates_of_the_page_are_tried() {
     let page = fs::read_to_string(root().join("docs/how-to/rust.md")).expect("a page");
