@@ -41,8 +41,8 @@ impl From<MindOptions> for MindChoice {
 /// Physics engine, length of events and search effort of agents; the defaults are the paper's.
 #[derive(Args, Debug)]
 pub struct SimulationOptions {
-    /// Physics engine of the events: `world` (rapier2d) or `forward` (the kernel that the agents' search
-    /// uses, closest to the published simulator) [default: world]
+    /// Physics engine of the events: `world` (rapier2d), `forward` (the kernel that the agents' search uses)
+    /// or `original` (the published simulator's) [default: world]
     #[arg(long, value_name = "ENGINE", hide_possible_values = true,
         value_parser = named(Engine::ALL, Engine::name))]
     pub engine: Option<Engine>,

@@ -10,6 +10,7 @@ use phase_model::{
     AGENT_COUNT, Action, AgentId, Body, Contacts, Dynamics, Entity, Grip, MAX_OBJECTS, ObjectId,
     PhysicsConfig, Segment, Side, State, Strength, Vec2, arena::SUBSTEPS,
 };
+use std::sync::Arc;
 
 /// The dynamics as the published planner imagines them, bit for bit.
 ///
@@ -19,8 +20,8 @@ use phase_model::{
 /// as in a world that has just been made. Bodies that overlap a wall may get through it.
 #[derive(Clone, Debug)]
 pub struct Imagined {
-    physics: PhysicsConfig,
-    scenery: Scenery,
+    pub(crate) physics: PhysicsConfig,
+    scenery: Arc<Scenery>,
     /// Torques of the agents' turns (N u).
     torques: [f32; AGENT_COUNT],
     stops: [bool; AGENT_COUNT],
@@ -37,7 +38,7 @@ impl Imagined {
         let walls = walls[..wall_count].iter().map(|it| Shape::wall(Segment { a: it.a, b: it.b }));
         let shapes = agents.chain(objects.map(|&radius| Shape::object(stated(radius))));
         Self {
-            scenery: Scenery::new(walls.collect(), shapes.collect()),
+            scenery: Arc::new(Scenery::new(walls.collect(), shapes.collect())),
             torques: sizes.map(|size| (300.0 * (size / 0.8) * (size / 0.8)) as f32),
             physics: physics.clone(),
             stops: [true; AGENT_COUNT],
@@ -47,7 +48,7 @@ impl Imagined {
     /// These dynamics without collisions between bodies ([`Forward::without_collisions`](crate::Forward::without_collisions)).
     #[must_use]
     pub fn without_collisions(mut self) -> Self {
-        self.scenery.collisions = false;
+        Arc::make_mut(&mut self.scenery).collisions = false;
         self
     }
 
@@ -81,7 +82,7 @@ impl Imagined {
                 spin: if is_object { 0.0 } else { body.angular_velocity },
             };
         }
-        let mut world = World::new(&self.scenery, &states[..count]);
+        let mut world = self.world(&states);
         let mut grips = state.grips;
         for agent in AgentId::ALL {
             let held = grips[agent].map(|grip| (agent.index(), body_of(grip.object)));
@@ -114,32 +115,47 @@ impl Imagined {
         }
         for substep in 0..SUBSTEPS {
             for agent in AgentId::ALL {
-                self.act(&mut world, agent, actions[agent]);
+                self.act(&mut world, agent, actions[agent], 0.0);
             }
             world.substep(substep == 0);
         }
-        for (index, body) in state.bodies.iter_mut().enumerate().take(count) {
-            let BodyState { place, angle, velocity, spin } = world.state(index);
-            let angular_velocity = if index < AGENT_COUNT { 0.0 } else { spin };
-            *body = Body { position: place, angle, velocity, angular_velocity };
+        for agent in AgentId::ALL {
+            world.stop_turning(agent.index());
         }
         state.grips = grips;
+        self.read(&world, state);
+    }
+
+    /// A world with the bodies of a state.
+    pub(crate) fn world(&self, states: &[BodyState]) -> World {
+        World::new(&self.scenery, &states[..self.scenery.count()])
+    }
+
+    /// Writes poses, velocities and contacts of a world into a state.
+    pub(crate) fn read(&self, world: &World, state: &mut State) {
+        for (index, body) in state.bodies.iter_mut().enumerate().take(self.scenery.count()) {
+            let BodyState { place, angle, velocity, spin } = world.state(index);
+            *body = Body { position: place, angle, velocity, angular_velocity: spin };
+        }
         state.contacts = Contacts::NONE;
         for (a, b) in world.touching() {
             state.contacts.insert(Entity::ALL[a], Entity::ALL[b]);
         }
     }
 
-    fn weld(&self, agent: AgentId, object: ObjectId, side: Side, angle: f32) -> Joint {
+    pub(crate) fn weld(&self, agent: AgentId, object: ObjectId, side: Side, angle: f32) -> Joint {
         let reach = stated(self.physics.agents[agent].radius) + stated(self.physics.object_radii[object]);
         let anchor = side.direction() * reach as f32;
         Joint::Weld { bodies: (agent.index(), body_of(object)), anchor, angle, impulse: Vec3::ZERO }
     }
 
-    fn act(&self, world: &mut World<'_>, agent: AgentId, action: Action) {
+    /// Applies what an action does in every substep. Pushes act at this share of the agent's size behind its
+    /// origin.
+    pub(crate) fn act(&self, world: &mut World, agent: AgentId, action: Action, behind: f64) {
         let body = agent.index();
         if let Some(push) = action.push() {
-            world.push(body, push * self.physics.agents[agent].max_force);
+            let at = Vec2::new(0.0, (-stated(self.physics.agents[agent].radius) * behind) as f32);
+            world.push(body, at, push * self.physics.agents[agent].max_force);
         } else if action == Action::Stop && self.stops[agent] {
             world.stop(body);
         } else {
@@ -154,7 +170,7 @@ fn stated(radius: f32) -> f64 {
     (f64::from(radius) * DECIMALS).round() / DECIMALS
 }
 
-const fn body_of(object: ObjectId) -> usize {
+pub(crate) const fn body_of(object: ObjectId) -> usize {
     AGENT_COUNT + object.index()
 }
 

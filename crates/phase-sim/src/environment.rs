@@ -1,7 +1,7 @@
-//! The environment that an event is simulated in, by either engine.
+//! The environment that an event is simulated in, by any engine.
 
 use crate::Engine;
-use phase_forward::{Forward, SolverCache};
+use phase_forward::{Forward, OriginalWorld, SolverCache};
 use phase_model::{AGENT_COUNT, Action, AgentId, Entity, PhysicsConfig, State, Vec2, arena::SUBSTEPS};
 use phase_world::World;
 
@@ -40,6 +40,7 @@ impl core::fmt::Debug for Environment {
         let engine = match self.0 {
             Inner::World(_) => Engine::World,
             Inner::Forward(_) => Engine::Forward,
+            Inner::Original(_) => Engine::Original,
         };
         formatter.debug_tuple("Environment").field(&engine).finish()
     }
@@ -49,6 +50,7 @@ impl core::fmt::Debug for Environment {
 enum Inner {
     World(Box<World>),
     Forward(Box<StatefulForward>),
+    Original(Box<OriginalWorld>),
 }
 
 impl Environment {
@@ -63,6 +65,11 @@ impl Environment {
                 let cache = forward.fresh_cache(state);
                 Inner::Forward(Box::new(StatefulForward { forward, state: *state, cache }))
             }
+            Engine::Original => {
+                let mut world = OriginalWorld::new(physics, state);
+                world.settle();
+                Inner::Original(Box::new(world))
+            }
         })
     }
 
@@ -72,6 +79,7 @@ impl Environment {
         match &mut self.0 {
             Inner::World(world) => world.step(actions),
             Inner::Forward(replay) => replay.forward.step_warm(&mut replay.state, &mut replay.cache, actions),
+            Inner::Original(world) => world.step(actions),
         }
     }
 
@@ -89,6 +97,10 @@ impl Environment {
                     (body.velocity, body.angular_velocity) = (Vec2::ZERO, 0.0);
                 }
                 replay.state
+            }
+            Inner::Original(world) => {
+                world.stop_agents();
+                *world.state()
             }
         }
     }

@@ -21,11 +21,14 @@ pub enum Engine {
     World,
     /// `phase-forward` with its warm-starting cache: closest to the published simulator, and faster.
     Forward,
+    /// `phase_forward::OriginalWorld`: the published simulator's own, bit for bit. It makes a substep before
+    /// the first step.
+    Original,
 }
 
 impl Engine {
     /// All engines.
-    pub const ALL: [Self; 2] = [Self::World, Self::Forward];
+    pub const ALL: [Self; 3] = [Self::World, Self::Forward, Self::Original];
 
     /// The engine of a name, as [`name`](Self::name) gives it.
     #[must_use]
@@ -39,6 +42,7 @@ impl Engine {
         match self {
             Self::World => "world",
             Self::Forward => "forward",
+            Self::Original => "original",
         }
     }
 }

@@ -1,7 +1,7 @@
-//! Adapters of the project's two engines for the comparison with recordings.
+//! Adapters of the project's engines for the comparison with recordings.
 
 use crate::Engine;
-use phase_forward::{Forward, SolverCache};
+use phase_forward::{Forward, OriginalWorld, SolverCache};
 use phase_model::{AGENT_COUNT, Action, PhysicsConfig, State, Vec2, arena::SUBSTEPS};
 use phase_world::World;
 
@@ -71,6 +71,38 @@ impl Engine for WarmForward {
 
     fn step(&mut self, actions: [Action; AGENT_COUNT]) -> [State; SUBSTEPS] {
         self.forward.step_warm(&mut self.state, &mut self.cache, actions)
+    }
+}
+
+/// The published simulator's own engine.
+pub struct OriginalEngine {
+    physics: PhysicsConfig,
+    world: OriginalWorld,
+}
+
+impl Engine for OriginalEngine {
+    const RUNS_IDLE_SUBSTEP: bool = true;
+
+    fn set_up(physics: &PhysicsConfig, state: &State) -> Self {
+        Self { physics: physics.clone(), world: OriginalWorld::new(physics, state) }
+    }
+
+    fn settle(&mut self) {
+        self.world.settle();
+    }
+
+    fn set_velocity(&mut self, body: usize, velocity: Vec2) {
+        let mut state = *self.world.state();
+        state.bodies[body].velocity = velocity;
+        self.world = OriginalWorld::new(&self.physics, &state);
+    }
+
+    fn state(&self) -> State {
+        *self.world.state()
+    }
+
+    fn step(&mut self, actions: [Action; AGENT_COUNT]) -> [State; SUBSTEPS] {
+        self.world.step(actions)
     }
 }
 

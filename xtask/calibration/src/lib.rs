@@ -60,7 +60,7 @@ mod spread;
 
 pub use deviation::Deviation;
 pub use engine::Engine;
-pub use engines::{ColdForward, WarmForward, WorldEngine};
+pub use engines::{ColdForward, OriginalEngine, WarmForward, WorldEngine};
 pub use error::ReadError;
 pub use family::family;
 pub use measure::{horizon_errors, probes_report, replay_reports, run_reports};

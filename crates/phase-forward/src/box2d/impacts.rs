@@ -13,7 +13,7 @@ use super::{
 /// Most impacts on one wall that a substep resolves.
 const MAX_IMPACTS: u32 = 8;
 
-impl World<'_> {
+impl World {
     /// Resolves the impacts of bodies on walls in this substep, in the order of time.
     pub(super) fn solve_impacts(&mut self) {
         for sweep in &mut self.sweeps {
@@ -66,7 +66,11 @@ impl World<'_> {
         let mut first: Option<(f32, usize)> = None;
         for index in (0..self.contacts.len()).rev() {
             let contact = self.contacts[index];
-            if !contact.enabled || contact.impacts > MAX_IMPACTS || contact.bodies.0 != WALLS {
+            if !contact.enabled
+                || contact.impacts > MAX_IMPACTS
+                || contact.bodies.0 != WALLS
+                || self.asleep[contact.bodies.1]
+            {
                 continue;
             }
             let time = if let Some(time) = contact.impact { time } else { self.impact(&contact) };

@@ -1,8 +1,8 @@
 //! Bodies that touch or hold each other, solved together for one substep.
 
 use super::{
-    BODIES, DT, ITERATIONS, LINEAR_SLOP, MAX_JOINTS, WALLS,
-    contact::{Constraint, iterate},
+    ANGULAR_SLOP, BODIES, DT, ITERATIONS, LINEAR_SLOP, MAX_JOINTS, WALLS,
+    contact::{Constraint, Solved, iterate},
     joint::{Friction, Joint, Solving},
     world::World,
 };
@@ -14,7 +14,7 @@ const BAUMGARTE: f32 = 0.2;
 const IMPACT_BAUMGARTE: f32 = 0.75;
 const IMPACT_POSITION_ITERATIONS: usize = 20;
 
-impl World<'_> {
+impl World {
     /// Solves all islands of a substep.
     pub(super) fn solve(&mut self, is_first: bool) {
         let warmth = Constraint::warmth(is_first);
@@ -27,7 +27,8 @@ impl World<'_> {
             (linked[a], linked[b]) = (true, true);
         }
         let mut known = [false; BODIES];
-        for seed in (0..self.count()).rev() {
+        let asleep = self.asleep;
+        for seed in (0..self.count()).rev().filter(|&body| !asleep[body]) {
             if !linked[seed] {
                 self.solve_alone(seed, warmth);
             } else if !known[seed] {
@@ -45,7 +46,7 @@ impl World<'_> {
         let idle = self.forces[body] == Vec2::ZERO && self.torques[body] == 0.0;
         if at_rest && idle && impulse == Vec2::ZERO {
             self.place(body);
-            return;
+            return self.fall_asleep(&[body], true);
         }
         self.accelerate(body);
         let mut friction = Friction::new(body, impulse * warmth, &mut self.bodies);
@@ -56,6 +57,28 @@ impl World<'_> {
         self.joints[body] = Joint::Friction { body, impulse: friction.impulse() };
         self.bodies.advance(body, DT);
         self.place(body);
+        self.fall_asleep(&[body], true);
+    }
+
+    /// Lets bodies that were solved together sleep once all of them have rested long enough.
+    fn fall_asleep(&mut self, bodies: &[usize], settled: bool) {
+        const LONG_ENOUGH: f32 = 0.5;
+        const SLOW: f32 = 0.01;
+        let mut least = f32::MAX;
+        let moving = |&&body: &&usize| body != WALLS;
+        for &body in bodies.iter().filter(moving) {
+            let Solved { velocity, spin, .. } = &self.bodies;
+            let moves = spin[body] * spin[body] > ANGULAR_SLOP * ANGULAR_SLOP
+                || velocity[body].dot(velocity[body]) > SLOW * SLOW;
+            self.rest[body] = if moves { 0.0 } else { self.rest[body] + DT };
+            least = least.min(self.rest[body]);
+        }
+        if settled && least >= LONG_ENOUGH {
+            for &body in bodies.iter().filter(moving) {
+                (self.asleep[body], self.rest[body]) = (true, 0.0);
+                (self.bodies.velocity[body], self.bodies.spin[body]) = (Vec2::ZERO, 0.0);
+            }
+        }
     }
 
     /// Solves all bodies that are connected with one by contacts and grips.
@@ -77,6 +100,7 @@ impl World<'_> {
             if body == WALLS {
                 continue;
             }
+            self.wake((body, WALLS));
             let mut reach = |(a, b): (usize, usize)| {
                 let other = if a == body { b } else { a };
                 if !core::mem::replace(&mut known[other], true) {
@@ -130,8 +154,9 @@ impl World<'_> {
         for &body in bodies {
             solved.advance(body, DT);
         }
+        let mut settled = false;
         for _ in 0..ITERATIONS {
-            let mut settled = true;
+            settled = true;
             for (_, contact) in &constraints {
                 settled &= contact.separate(solved, BAUMGARTE) >= -3.0 * LINEAR_SLOP;
             }
@@ -151,6 +176,7 @@ impl World<'_> {
         for &body in bodies {
             self.place(body);
         }
+        self.fall_asleep(bodies, settled);
         (self.constraints, self.solving) = (constraints, solving);
     }
 

@@ -3,8 +3,8 @@
 //!
 //! A search compares sums of many rewards, and a difference in the last bit of one position changes which
 //! action it visits next. So this engine does the same operations on the same numbers in the same order, and
-//! `tests/box2d` compares bits. Left out is what has no effect there: sleep, restitution, friction at
-//! contacts, damping, gravity, and the tree of the broad phase, whose pairs are sorted anyway. The velocity
+//! `tests/box2d` compares bits. Left out is what has no effect there: restitution, friction at contacts,
+//! damping, gravity, and the tree of the broad phase, whose pairs are sorted anyway. The velocity
 //! solver stops before its tenth iteration once an iteration has changed nothing.
 
 // Copyright (c) 2006-2011 Erin Catto http://www.box2d.org
@@ -23,6 +23,7 @@
 mod collide;
 mod contact;
 mod distance;
+mod handle;
 mod impact;
 mod impacts;
 mod island;

@@ -1,4 +1,4 @@
-//! A world that lasts for one step.
+//! A world of bodies, joints and contacts.
 
 use super::{
     BODIES, MAX_JOINTS, WALLS, WALLS_AT,
@@ -8,6 +8,7 @@ use super::{
     shape::Shape,
 };
 use phase_model::Vec2;
+use std::sync::Arc;
 
 /// Margin around the boxes of shapes (u).
 const MARGIN: f32 = 0.1;
@@ -29,7 +30,7 @@ impl BodyState {
 /// The shapes of a scene.
 #[derive(Clone, Debug)]
 pub(crate) struct Scenery {
-    walls: Vec<Shape>,
+    pub(super) walls: Vec<Shape>,
     /// Boxes of the walls, without and with margins.
     pub(super) bounds: Vec<(Vec2, Vec2)>,
     boxes: Vec<(Vec2, Vec2)>,
@@ -69,7 +70,7 @@ impl Scenery {
 }
 
 /// The bit of a pair of shapes: of a wall by its number and a body, or of two bodies.
-const fn bit_of(first: usize, (a, b): (usize, usize)) -> u64 {
+pub(super) const fn bit_of(first: usize, (a, b): (usize, usize)) -> u64 {
     if a == WALLS { 1 << (WALLS * first + b) } else { 1 << (u64::BITS as usize - 1 - (WALLS * a + b)) }
 }
 
@@ -81,11 +82,11 @@ fn with_margin((min, max): (Vec2, Vec2)) -> (Vec2, Vec2) {
 
 /// Bodies, joints and contacts.
 #[derive(Clone, Debug)]
-pub(crate) struct World<'a> {
-    pub(super) scenery: &'a Scenery,
+pub(crate) struct World {
+    pub(super) scenery: Arc<Scenery>,
     pub(super) bodies: Solved,
     pub(super) sweeps: [Sweep; BODIES],
-    poses: [Transform; BODIES],
+    pub(super) poses: [Transform; BODIES],
     /// Poses at which the motions of this substep began.
     pub(super) before: [Transform; BODIES],
     pub(super) forces: [Vec2; BODIES],
@@ -97,16 +98,19 @@ pub(crate) struct World<'a> {
     /// Boxes of bodies, with margins, and whether they are new.
     boxes: [(Vec2, Vec2); WALLS],
     moved: [bool; WALLS],
+    /// Time since each body moved (s), and whether it sleeps.
+    pub(super) rest: [f32; WALLS],
+    pub(super) asleep: [bool; WALLS],
     /// Pairs of shapes that have contacts, a bit each.
-    known: u64,
+    pub(super) known: u64,
     /// Room for solving.
     pub(super) constraints: Vec<(usize, Constraint)>,
     pub(super) solving: Vec<(usize, Solving)>,
 }
 
-impl<'a> World<'a> {
+impl World {
     /// A world with bodies, each of them with ground friction.
-    pub(crate) fn new(scenery: &'a Scenery, states: &[BodyState]) -> Self {
+    pub(crate) fn new(scenery: &Arc<Scenery>, states: &[BodyState]) -> Self {
         let fixed = Sweep {
             local_centre: Vec2::ZERO,
             from: WALLS_AT,
@@ -116,7 +120,7 @@ impl<'a> World<'a> {
             start: 0.0,
         };
         let mut world = Self {
-            scenery,
+            scenery: Arc::clone(scenery),
             bodies: scenery.still,
             sweeps: [fixed; BODIES],
             poses: [AT_WALLS; BODIES],
@@ -127,6 +131,8 @@ impl<'a> World<'a> {
             contacts: Vec::new(),
             boxes: [(Vec2::ZERO, Vec2::ZERO); WALLS],
             moved: [false; WALLS],
+            rest: [0.0; WALLS],
+            asleep: [false; WALLS],
             known: 0,
             constraints: Vec::new(),
             solving: Vec::new(),
@@ -154,33 +160,6 @@ impl<'a> World<'a> {
             world.joints.push(Joint::Friction { body, impulse: Vec2::ZERO });
         }
         world
-    }
-
-    /// Adds a joint.
-    pub(crate) fn join(&mut self, joint: Joint) {
-        self.joints.push(joint);
-    }
-
-    /// Removes the joint of two bodies.
-    pub(crate) fn part(&mut self, bodies: (usize, usize)) {
-        self.joints.retain(|joint| joint.bodies() != Some(bodies));
-    }
-
-    /// Pushes a body at its origin with a force in its own frame, in the coming substep (N).
-    pub(crate) fn push(&mut self, body: usize, force: Vec2) {
-        let force = self.poses[body].rotation.turn(force);
-        self.forces[body] += force;
-        self.torques[body] += (self.poses[body].place - self.sweeps[body].to).perp_dot(force);
-    }
-
-    /// Turns a body in the coming substep (N u).
-    pub(crate) fn turn(&mut self, body: usize, torque: f32) {
-        self.torques[body] += torque;
-    }
-
-    /// Stops a body, which goes on turning.
-    pub(crate) fn stop(&mut self, body: usize) {
-        self.bodies.velocity[body] = Vec2::ZERO;
     }
 
     /// Pose and velocity of a body.
@@ -225,8 +204,8 @@ impl<'a> World<'a> {
     }
 
     /// A shape by its number, the walls first.
-    pub(super) fn shape(&self, number: usize) -> &'a Shape {
-        let Scenery { walls, shapes, .. } = self.scenery;
+    pub(super) fn shape(&self, number: usize) -> &Shape {
+        let Scenery { walls, shapes, .. } = &*self.scenery;
         if number < walls.len() { &walls[number] } else { &shapes[number - walls.len()] }
     }
 
@@ -324,11 +303,19 @@ impl<'a> World<'a> {
         let mut contacts = core::mem::take(&mut self.contacts);
         let mut parted = 0;
         contacts.retain_mut(|contact| {
+            let (a, b) = contact.bodies;
+            if self.asleep[b] && (a == WALLS || self.asleep[a]) {
+                return true;
+            }
+            let touched = contact.is_touching();
             let near = self.boxes_overlap(contact.shapes);
             if near {
                 self.update(contact);
             } else {
                 parted |= bit_of(contact.shapes.0, contact.bodies);
+            }
+            if touched != (near && contact.is_touching()) {
+                self.wake(contact.bodies);
             }
             near
         });

@@ -9,17 +9,22 @@ use phase_published::Aim;
 use serde_json::Value;
 use std::path::Path;
 
-/// The cases of a file of the reference material beside the project, or `None` (with a message) where there
-/// is none.
-pub(crate) fn cases(file: &str) -> Option<Vec<Value>> {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/reference").join(file);
+/// A file of the reference material beside the project, or `None` (with a message) where there is none.
+pub(crate) fn reference(file: &str) -> Option<Value> {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared").join(file);
     if !path.is_file() {
         println!("skipped: there is no reference material beside the project");
         return None;
     }
     let text = std::fs::read_to_string(path).expect("a readable file");
-    let mut file: Value = serde_json::from_str(&text).expect("JSON");
-    let Value::Array(cases) = file["cases"].take() else { panic!("no cases") };
+    Some(serde_json::from_str(&text).expect("JSON"))
+}
+
+/// The cases of a file of outputs of the original.
+pub(crate) fn cases(file: &str) -> Option<Vec<Value>> {
+    let Value::Array(cases) = reference(&format!("reference/{file}"))?["cases"].take() else {
+        panic!("no cases")
+    };
     Some(cases)
 }
 

@@ -7,6 +7,8 @@ mod cases;
 mod decisions;
 mod imagined;
 mod observe;
+mod recorded;
+mod replayed;
 mod reward;
 mod rules;
 mod selection;

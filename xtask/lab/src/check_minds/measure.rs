@@ -8,7 +8,7 @@ use phase_event::{MethodError, ProgressCallback, Recording};
 use phase_evidence::Track;
 use phase_model::{AGENT_COUNT, AgentId, EventKind};
 use phase_runs::{engine, error::RunError, interrupt::requested};
-use phase_sim::SimulationSettings;
+use phase_sim::{Engine, SimulationSettings};
 use phase_simple::{
     ImaginedAgents, InversePlanningSettings, PreparedEvent,
     choice::{self, Chance},
@@ -127,7 +127,10 @@ impl Measurement {
         tick: ProgressCallback<'_>,
     ) -> Result<Option<Simulated>, RunError> {
         let steps = recording.trajectory.steps();
+        // The world that made recordings has the recorder's defects.
+        let as_recorded = self.open_loop.one_way_turns && self.open_loop.strongest_coasts;
         let settings = SimulationSettings {
+            engine: if as_recorded { Engine::Original } else { Engine::World },
             max_steps: steps,
             min_steps: steps,
             one_way_turns: self.open_loop.one_way_turns,

@@ -7,8 +7,8 @@ mod targets;
 use crate::error::LabError;
 use options::CheckPhysics;
 use phase_calibration::{
-    ColdForward, Engine, Probe, ReadError, Replay, Report, Run, StatelessErrors, WarmForward, WorldEngine,
-    horizon_errors, probes_report, replay_reports, run_reports,
+    ColdForward, Engine, OriginalEngine, Probe, ReadError, Replay, Report, Run, StatelessErrors, WarmForward,
+    WorldEngine, horizon_errors, probes_report, replay_reports, run_reports,
 };
 use phase_cli::context::Context;
 use phase_files::json;
@@ -44,6 +44,11 @@ pub fn run(arguments: &CheckPhysics, context: &Context) -> Result<(), LabError> 
         phase_sim::Engine::World => {
             let report = records.measure::<WorldEngine>("world");
             let targets = targets::of_world(&report);
+            (report, targets)
+        }
+        phase_sim::Engine::Original => {
+            let report = records.measure::<OriginalEngine>("original");
+            let targets = targets::of_forward(&report);
             (report, targets)
         }
         phase_sim::Engine::Forward => {

@@ -1,0 +1,248 @@
+//! What our minds do in the recordings, and in the recorded scenes from their start.
+
+use crate::recorded::{Recorded, mean_places, recordings};
+use phase_forward::OriginalWorld;
+use phase_model::{
+    AGENT_COUNT, Action, AgentId, Attitude, EventKind, Goal, MAX_ENTITIES, Sign, State, Vec2, arena,
+    random::{Pcg64Mcg, Purpose, stream},
+};
+use phase_published::{Belief, Mind, PublishedParameters, RandomNumbers, senses::observe};
+
+/// Both sources of random numbers.
+const RANDOM: [RandomNumbers; 2] = [RandomNumbers::Original, RandomNumbers::Seeded];
+
+/// Both agents of a recording under the truth.
+struct Agents {
+    minds: [Mind; AGENT_COUNT],
+    beliefs: [Belief; AGENT_COUNT],
+    /// Random numbers of beliefs and of searches.
+    random: [[Pcg64Mcg; AGENT_COUNT]; 2],
+}
+
+impl Agents {
+    fn new(recording: &Recorded, random: RandomNumbers, state: &State) -> Self {
+        let parameters = PublishedParameters {
+            older_actions: recording.kind == EventKind::Hindering,
+            strongest_coasts: true,
+            random,
+            ..PublishedParameters::default()
+        };
+        let Recorded { scene, .. } = recording;
+        let physics = scene.physics();
+        let streams = |purpose| AgentId::ALL.map(|agent| stream(1, purpose, agent.number().into()));
+        let [mut of_beliefs, of_searches] = [Purpose::Belief, Purpose::Search].map(streams);
+        let beliefs = AgentId::ALL.map(|agent| {
+            let seen = observe(&physics, state, agent);
+            let random = &mut of_beliefs[agent.index()];
+            Belief::new(scene.layout, &physics, &parameters, &seen, Some(state), random)
+        });
+        let minds = AgentId::ALL.map(|agent| Mind::new(scene, agent, parameters).expect("a mind"));
+        Self { minds, beliefs, random: [of_beliefs, of_searches] }
+    }
+
+    fn decide(&mut self) -> [Action; AGENT_COUNT] {
+        let mut position = 0;
+        [0, 1].map(|k| {
+            self.minds[k].begin_at(position);
+            let particles = self.beliefs[k].particles();
+            let (action, _) = self.minds[k].decide(particles, &mut self.random[1][k]).expect("a decision");
+            position = self.minds[k].stream_position();
+            action
+        })
+    }
+
+    fn perceive(&mut self, actions: [Action; AGENT_COUNT], substeps: &[State]) {
+        for (k, belief) in self.beliefs.iter_mut().enumerate() {
+            let seen = belief.observe(&substeps[substeps.len() - 1]);
+            belief.update(actions[k], &seen, substeps, &mut self.random[0][k]);
+        }
+    }
+
+    /// Whether nothing is left to chance in the decision of an agent: it and those before it know the state.
+    fn is_certain(&self, agent: usize) -> bool {
+        let knows = |it: &Belief| it.particles().iter().all(|particle| *particle == it.particles()[0]);
+        self.beliefs[..=agent].iter().all(knows)
+    }
+}
+
+/// Decisions that have the effect of the recorded ones.
+#[derive(Clone, Copy, Default)]
+struct Same {
+    same: usize,
+    all: usize,
+}
+
+impl Same {
+    fn add(&mut self, same: bool) {
+        self.same += usize::from(same);
+        self.all += 1;
+    }
+
+    fn plus(self, other: Self) -> Self {
+        Self { same: self.same + other.same, all: self.all + other.all }
+    }
+
+    fn share(self) -> f64 {
+        self.same as f64 / self.all as f64
+    }
+}
+
+impl core::fmt::Display for Same {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        write!(f, "{} of {}", self.same, self.all)
+    }
+}
+
+/// How many decisions at the recorded states have the effect that was recorded: all, and those in which
+/// nothing is left to chance.
+fn decisions(recording: &Recorded, random: RandomNumbers) -> [Same; 2] {
+    /// Rounding of rows (u).
+    const ROUNDING: f32 = 1e-5;
+    let mut world = recording.world();
+    let mut agents = Agents::new(recording, random, world.state());
+    let mut counts = [Same::default(); 2];
+    for (t, &actions) in recording.actions.iter().enumerate() {
+        let ours = agents.decide();
+        let after = |world: &OriginalWorld, actions| {
+            let mut world = world.clone();
+            (world.step(recording.carried_out(actions)), world)
+        };
+        let (substeps, known) = after(&world, actions);
+        // Two that press against each other move as little as two that rest.
+        let together = recording.error(&after(&world, ours).0, t) <= recording.error(&substeps, t) + ROUNDING;
+        for (k, &own) in ours.iter().enumerate() {
+            let mut one = actions;
+            one[k] = own;
+            let is_same = together || after(&world, one).1.state() == known.state();
+            counts[0].add(is_same);
+            if agents.is_certain(k) {
+                counts[1].add(is_same);
+            }
+        }
+        world = known;
+        agents.perceive(actions, &substeps);
+    }
+    counts
+}
+
+#[test]
+fn decisions_are_those_recorded() {
+    let Some(recordings) = recordings() else { return };
+    let mut sum = Same::default();
+    for recording in recordings.iter().filter(|it| ["004", "008", "010"].contains(&&it.id[11..])) {
+        let [all, _] = decisions(recording, RandomNumbers::Original);
+        sum = sum.plus(all);
+    }
+    println!("decisions as recorded: {sum}");
+    assert!(sum.share() > 0.9);
+}
+
+/// Minutes of CPU time: `cargo test -p phase-published --test oracle all_decisions -- --ignored --nocapture`.
+#[test]
+#[ignore = "takes minutes"]
+fn all_decisions_are_those_recorded() {
+    let Some(recordings) = recordings() else { return };
+    // By source of random numbers, and by whether there were the older actions.
+    let mut sums = [[[Same::default(); 2]; 2]; 2];
+    for recording in &recordings {
+        let older = usize::from(recording.kind == EventKind::Hindering);
+        print!("{} {}", recording.id, recording.kind.name());
+        for (random, sums) in RANDOM.into_iter().zip(&mut sums) {
+            let counts = decisions(recording, random);
+            print!("; {random:?}: {}, certain: {}", counts[0], counts[1]);
+            sums[older] = [0, 1].map(|k| sums[older][k].plus(counts[k]));
+        }
+        println!();
+    }
+    for (random, sums) in RANDOM.into_iter().zip(&sums) {
+        for (name, [all, certain]) in ["from the 28th of August on", "hindering"].into_iter().zip(sums) {
+            println!("{random:?}, {name}: {all}, certain: {certain}");
+        }
+    }
+    assert!(sums[0][0][0].share() > 0.85);
+}
+
+/// A recorded scene, simulated from its start.
+struct Anew {
+    /// Steps until a body is far from its recorded place, of all.
+    together: Same,
+    /// Goals on landmarks that are reached in the end or not, as in the recording.
+    outcomes: Same,
+    /// Length of both agents' paths, and of those recorded (u).
+    paths: [f32; 2],
+}
+
+fn anew(recording: &Recorded, random: RandomNumbers) -> Anew {
+    /// Far from its recorded place (u).
+    const FAR: f32 = 1.0;
+    let mut world = recording.world();
+    let mut agents = Agents::new(recording, random, world.state());
+    let mut places = vec![recording.rows[0]];
+    let steps = recording.rows.len() - 1;
+    let mut parted = steps;
+    for t in 0..steps {
+        let actions = recording.carried_out(agents.decide());
+        let substeps = world.step(actions);
+        agents.perceive(actions, &substeps);
+        places.push(mean_places(&substeps));
+        if recording.error(&substeps, t) > FAR {
+            parted = parted.min(t);
+        }
+    }
+    let mut outcomes = Same::default();
+    for agent in recording.scene.agents.iter().filter(|it| it.attitude == Attitude::Neutral) {
+        let reached = [&places, &recording.rows].map(|rows| is_reached(agent.goal, &rows[steps]));
+        if let [Some(ours), Some(theirs)] = reached {
+            outcomes.add(ours == theirs);
+        }
+    }
+    let paths = [&places, &recording.rows].map(|rows| path(rows));
+    Anew { together: Same { same: parted, all: steps }, outcomes, paths }
+}
+
+/// Minutes of CPU time, as above: `scenes_anew`.
+#[test]
+#[ignore = "takes minutes"]
+fn scenes_anew_end_as_recorded() {
+    let Some(recordings) = recordings() else { return };
+    let mut sums = [[Same::default(); 2]; 2];
+    let mut ratios = [Vec::new(), Vec::new()];
+    for recording in &recordings {
+        print!("{} {}", recording.id, recording.kind.name());
+        for (k, random) in RANDOM.into_iter().enumerate() {
+            let Anew { together, outcomes, paths: [path, recorded] } = anew(recording, random);
+            print!(
+                "; {random:?}: together {together}, outcomes {outcomes}, path {path:.1} of {recorded:.1} u"
+            );
+            sums[k] = [sums[k][0].plus(together), sums[k][1].plus(outcomes)];
+            ratios[k].push(path / recorded);
+        }
+        println!();
+    }
+    for ((random, [together, outcomes]), ratios) in RANDOM.into_iter().zip(sums).zip(&mut ratios) {
+        ratios.sort_by(f32::total_cmp);
+        let ratio = ratios[ratios.len() / 2];
+        println!("{random:?}: together {together}, outcomes {outcomes}, median path ratio {ratio:.2}");
+    }
+    assert!(sums[0][1].share() > 0.8);
+}
+
+/// Length of both agents' paths (u).
+fn path(rows: &[[Vec2; MAX_ENTITIES]]) -> f32 {
+    rows.windows(2).map(|pair| pair[0][0].distance(pair[1][0]) + pair[0][1].distance(pair[1][1])).sum()
+}
+
+/// Whether bodies at these places fulfil a goal, as the original tells; `None` for goals without a landmark,
+/// and those to avoid something.
+fn is_reached(goal: Goal, places: &[Vec2; MAX_ENTITIES]) -> Option<bool> {
+    match goal {
+        Goal::AgentOnLandmark { agent, landmark, sign: Sign::Positive } => {
+            Some(places[agent.index()].distance(arena::LANDMARKS[landmark]) < 0.02 * arena::DIAGONAL)
+        }
+        Goal::ObjectOnLandmark { object, landmark, sign: Sign::Positive } => {
+            let place = places[AGENT_COUNT + object.index()];
+            Some(place.distance(arena::LANDMARKS[landmark]) < 0.05 * arena::DIAGONAL)
+        }
+        _ => None,
+    }
+}
