@@ -1,9 +1,9 @@
-//! What our minds do in the recordings, and in the recorded scenes from their start.
+//! Decisions of our minds at the recorded states.
 
-use crate::recorded::{Recorded, mean_places, recordings};
+use crate::recorded::{Recorded, recordings};
 use phase_forward::OriginalWorld;
 use phase_model::{
-    AGENT_COUNT, Action, AgentId, Attitude, EventKind, Goal, MAX_ENTITIES, Sign, State, Vec2, arena,
+    AGENT_COUNT, Action, AgentId, EventKind, State,
     random::{Pcg64Mcg, Purpose, stream},
 };
 use phase_published::{Belief, Mind, PublishedParameters, RandomNumbers, senses::observe};
@@ -159,90 +159,5 @@ fn all_decisions_are_those_recorded() {
             println!("{random:?}, {name}: {all}, certain: {certain}");
         }
     }
-    assert!(sums[0][0][0].share() > 0.85);
-}
-
-/// A recorded scene, simulated from its start.
-struct Anew {
-    /// Steps until a body is far from its recorded place, of all.
-    together: Same,
-    /// Goals on landmarks that are reached in the end or not, as in the recording.
-    outcomes: Same,
-    /// Length of both agents' paths, and of those recorded (u).
-    paths: [f32; 2],
-}
-
-fn anew(recording: &Recorded, random: RandomNumbers) -> Anew {
-    /// Far from its recorded place (u).
-    const FAR: f32 = 1.0;
-    let mut world = recording.world();
-    let mut agents = Agents::new(recording, random, world.state());
-    let mut places = vec![recording.rows[0]];
-    let steps = recording.rows.len() - 1;
-    let mut parted = steps;
-    for t in 0..steps {
-        let actions = recording.carried_out(agents.decide());
-        let substeps = world.step(actions);
-        agents.perceive(actions, &substeps);
-        places.push(mean_places(&substeps));
-        if recording.error(&substeps, t) > FAR {
-            parted = parted.min(t);
-        }
-    }
-    let mut outcomes = Same::default();
-    for agent in recording.scene.agents.iter().filter(|it| it.attitude == Attitude::Neutral) {
-        let reached = [&places, &recording.rows].map(|rows| is_reached(agent.goal, &rows[steps]));
-        if let [Some(ours), Some(theirs)] = reached {
-            outcomes.add(ours == theirs);
-        }
-    }
-    let paths = [&places, &recording.rows].map(|rows| path(rows));
-    Anew { together: Same { same: parted, all: steps }, outcomes, paths }
-}
-
-/// Minutes of CPU time, as above: `scenes_anew`.
-#[test]
-#[ignore = "takes minutes"]
-fn scenes_anew_end_as_recorded() {
-    let Some(recordings) = recordings() else { return };
-    let mut sums = [[Same::default(); 2]; 2];
-    let mut ratios = [Vec::new(), Vec::new()];
-    for recording in &recordings {
-        print!("{} {}", recording.id, recording.kind.name());
-        for (k, random) in RANDOM.into_iter().enumerate() {
-            let Anew { together, outcomes, paths: [path, recorded] } = anew(recording, random);
-            print!(
-                "; {random:?}: together {together}, outcomes {outcomes}, path {path:.1} of {recorded:.1} u"
-            );
-            sums[k] = [sums[k][0].plus(together), sums[k][1].plus(outcomes)];
-            ratios[k].push(path / recorded);
-        }
-        println!();
-    }
-    for ((random, [together, outcomes]), ratios) in RANDOM.into_iter().zip(sums).zip(&mut ratios) {
-        ratios.sort_by(f32::total_cmp);
-        let ratio = ratios[ratios.len() / 2];
-        println!("{random:?}: together {together}, outcomes {outcomes}, median path ratio {ratio:.2}");
-    }
-    assert!(sums[0][1].share() > 0.8);
-}
-
-/// Length of both agents' paths (u).
-fn path(rows: &[[Vec2; MAX_ENTITIES]]) -> f32 {
-    rows.windows(2).map(|pair| pair[0][0].distance(pair[1][0]) + pair[0][1].distance(pair[1][1])).sum()
-}
-
-/// Whether bodies at these places fulfil a goal, as the original tells; `None` for goals without a landmark,
-/// and those to avoid something.
-fn is_reached(goal: Goal, places: &[Vec2; MAX_ENTITIES]) -> Option<bool> {
-    match goal {
-        Goal::AgentOnLandmark { agent, landmark, sign: Sign::Positive } => {
-            Some(places[agent.index()].distance(arena::LANDMARKS[landmark]) < 0.02 * arena::DIAGONAL)
-        }
-        Goal::ObjectOnLandmark { object, landmark, sign: Sign::Positive } => {
-            let place = places[AGENT_COUNT + object.index()];
-            Some(place.distance(arena::LANDMARKS[landmark]) < 0.05 * arena::DIAGONAL)
-        }
-        _ => None,
-    }
+    assert!(sums[0][0][0].share() > 0.8);
 }
