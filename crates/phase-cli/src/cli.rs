@@ -122,7 +122,7 @@ impl Interface for Command {
             Self::Stats(arguments) => stats::run(arguments, context),
             Self::Simulate(arguments) => simulate::run(arguments, context),
             Self::Render(arguments) => render::run(arguments, context),
-            Self::Track(arguments) => track::run(arguments),
+            Self::Track(arguments) => track::run(arguments, context),
             Self::Narrate(arguments) => narrate::run(arguments, context),
             Self::Clip(arguments) => laboratory::clip(arguments, context),
             Self::Observe(arguments) => laboratory::observe(arguments, context),

@@ -58,6 +58,14 @@ pub enum CliError {
         /// Number of problems.
         problems: usize,
     },
+    /// Some of several inputs cannot be tracked; the others are written.
+    #[error("{} of {inputs} inputs were refused:{}", refused.len(), list(refused))]
+    Refused {
+        /// Number of inputs.
+        inputs: usize,
+        /// Why, for each that was refused.
+        refused: Vec<RunError>,
+    },
     /// A split breaks rules.
     #[error("{}: its split breaks {broken} rule(s)", events.display())]
     RulesBroken {
@@ -97,6 +105,11 @@ pub enum CliError {
     Serve(#[from] phase_serve::ServeError),
 }
 
+/// Errors, each in a line of its own.
+fn list(errors: &[RunError]) -> String {
+    errors.iter().map(|error| format!("\n  {error}")).collect()
+}
+
 impl Failure for CliError {
     fn exit_code(&self) -> u8 {
         match self {
@@ -105,6 +118,7 @@ impl Failure for CliError {
             | Self::Output(_)
             | Self::NotWhole { .. }
             | Self::RulesBroken { .. }
+            | Self::Refused { .. }
             | Self::NotBuilt { .. }
             | Self::NoScene { .. }
             | Self::Usage(_) => 2,

@@ -1,14 +1,17 @@
 //! `track`: motion of bodies in videos, pictures or tables.
 
-use crate::{error::CliError, interrupt, named::named, output::Output};
+use crate::{context::Context, error::CliError, interrupt, named::named, output::Output, parallel::Jobs};
 use clap::{Args, value_parser};
 use phase_event::observed_to_json;
 use phase_files::{atomic, told};
 use phase_model::{Flip, Layout, Size};
-use phase_runs::track::{TrackRun, Tracked};
+use phase_runs::{
+    error::{Fault, RunError},
+    track::{TrackRun, Tracked, read_all},
+};
 use phase_track::{FrameMeaning, Roles, Shape, ShapeTrack, TableOptions};
 use serde_json::json;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Options of `track`.
 #[derive(Args, Debug)]
@@ -40,6 +43,9 @@ pub struct TrackOptions {
     /// Meaning of tables.
     #[command(flatten)]
     pub table: TableArguments,
+    /// Number of inputs at once.
+    #[command(flatten)]
+    pub jobs: Jobs,
     /// Form in which the result is printed.
     #[command(flatten)]
     pub output: Output,
@@ -130,40 +136,34 @@ fn layout(text: &str) -> Result<Layout, String> {
 ///
 /// # Errors
 /// Any [`CliError`].
-pub fn run(arguments: &TrackOptions) -> Result<(), CliError> {
+pub fn run(arguments: &TrackOptions, context: &Context) -> Result<(), CliError> {
     interrupt::listen();
     if arguments.id.is_some() && arguments.inputs.len() > 1 {
         return Err(CliError::Usage("--id: names one event, but there are several inputs".into()));
     }
-    let TableArguments { columns, time_units, bodies, bounds, y_down, sizes, layout } = &arguments.table;
-    let read = |input: &PathBuf| {
-        TrackRun {
-            input: input.clone(),
-            id: arguments.id.clone(),
-            frame_rate: f64::from(arguments.frame_rate),
-            meaning: arguments.frames,
-            roles: arguments.map.clone(),
-            table: TableOptions {
-                columns: columns.clone(),
-                rate: *time_units,
-                bodies: bodies.clone(),
-                bounds: *bounds,
-                y_down: *y_down,
-                sizes: sizes.clone(),
-                layout: *layout,
-            },
-        }
-        .read()
-    };
-    let tracked = arguments.inputs.iter().map(read).collect::<Result<Vec<_>, _>>()?;
-    let mut ids: Vec<String> = tracked.iter().map(|it| it.id.to_ascii_lowercase()).collect();
-    ids.sort();
-    if let Some(pair) = ids.windows(2).find(|pair| pair[0] == pair[1]) {
-        return Err(CliError::Usage(format!("two inputs give an event {}; rename one", pair[0])));
+    let inputs = arguments.inputs.len();
+    let runs: Vec<TrackRun> = arguments.inputs.iter().map(|input| arguments.run_of(input)).collect();
+    let progress = context.progress("Tracking", inputs, 1);
+    let done = |run: &TrackRun| progress.event(1, &told(&run.input));
+    let (tracked, mut refused): (Vec<_>, Vec<_>) =
+        read_all(&runs, arguments.jobs.threads(), done)?.into_iter().partition(Result::is_ok);
+    let tracked: Vec<Tracked> = tracked.into_iter().flatten().collect();
+    refused.retain(|result| !matches!(result, Err(error) if error.fault() == Fault::Interruption));
+    let is_interrupted = tracked.len() + refused.len() < inputs;
+    let mut refused: Vec<RunError> = refused.into_iter().filter_map(Result::err).collect();
+    if tracked.is_empty() {
+        return Err(match refused.pop() {
+            _ if is_interrupted => RunError::Stopped(None).into(),
+            Some(error) if inputs == 1 => error.into(),
+            last => {
+                refused.extend(last);
+                CliError::Refused { inputs, refused }
+            }
+        });
     }
     let events: Vec<_> =
         tracked.iter().map(|it| (it.id.as_str(), &it.observed, Some(&it.tracking))).collect();
-    let text = observed_to_json(&events).map_err(phase_runs::error::RunError::from)?;
+    let text = observed_to_json(&events).map_err(RunError::from)?;
     atomic::write(&arguments.out, text.as_bytes()).map_err(CliError::Output)?;
     if let Some(file) = &arguments.shapes {
         let [Tracked { shapes: Some(shapes), .. }] = &tracked[..] else {
@@ -177,7 +177,33 @@ pub fn run(arguments: &TrackOptions) -> Result<(), CliError> {
     let file = arguments.out.display();
     arguments
         .output
-        .print(format!("{lines}{file}"), &json!({ "file": told(&arguments.out), "events": report }))
+        .print(format!("{lines}{file}"), &json!({ "file": told(&arguments.out), "events": report }))?;
+    if is_interrupted {
+        return Err(RunError::Stopped(Some(arguments.out.clone())).into());
+    }
+    if refused.is_empty() { Ok(()) } else { Err(CliError::Refused { inputs, refused }) }
+}
+
+impl TrackOptions {
+    fn run_of(&self, input: &Path) -> TrackRun {
+        let TableArguments { columns, time_units, bodies, bounds, y_down, sizes, layout } = &self.table;
+        TrackRun {
+            input: input.to_owned(),
+            id: self.id.clone(),
+            frame_rate: f64::from(self.frame_rate),
+            meaning: self.frames,
+            roles: self.map.clone(),
+            table: TableOptions {
+                columns: columns.clone(),
+                rate: *time_units,
+                bodies: bodies.clone(),
+                bounds: *bounds,
+                y_down: *y_down,
+                sizes: sizes.clone(),
+                layout: *layout,
+            },
+        }
+    }
 }
 
 /// The errors with which an event was measured, for people.

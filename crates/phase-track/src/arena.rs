@@ -3,65 +3,18 @@
 use crate::{
     TrackError,
     picture::{Picture, Rgb, darkness, distance, mix},
+    squares::frames_of,
+    view::View,
 };
 use phase_model::{
     Flip, Layout, Segment, Vec2,
     arena::{self, LANDMARK_HALF_SIDE, LANDMARKS},
 };
 
-/// Lines of one direction that may be edges of the arena: half of them from either side.
-const MOST_PEAKS: usize = 8;
 /// The place, from the middle of a landmark to its edge, at which its rim begins.
 const RIM: f32 = 0.7;
-/// Squares of lines that may be the arena.
-const MOST_FRAMES: usize = 16;
-
-/// Place and scale of the arena in the picture.
-#[derive(Clone, Copy, PartialEq, Debug)]
-pub struct View {
-    /// Pixels of a world unit.
-    pub scale: f32,
-    /// The arena's upper left corner (pixels from the upper left corner of the picture).
-    pub corner: Vec2,
-}
-
-impl View {
-    /// The world point at the centre of a pixel.
-    pub(crate) fn point(self, x: usize, y: usize) -> Vec2 {
-        let offset = (Vec2::new(x as f32 + 0.5, y as f32 + 0.5) - self.corner) / self.scale;
-        Vec2::new(arena::MIN.x + offset.x, arena::MAX.y - offset.y)
-    }
-
-    /// The place of a world point (pixels).
-    #[must_use]
-    pub fn pixel(self, point: Vec2) -> Vec2 {
-        self.corner + Vec2::new(point.x - arena::MIN.x, arena::MAX.y - point.y) * self.scale
-    }
-
-    /// The pixels of a picture within a distance (u) of a world point, every `stride`-th in both directions.
-    pub(crate) fn pixels_within(
-        self,
-        (width, height): (usize, usize),
-        centre: Vec2,
-        reach: f32,
-        stride: usize,
-    ) -> impl Iterator<Item = (usize, usize)> {
-        let centre = self.pixel(centre);
-        let reach = reach * self.scale;
-        let range = |centre: f32, end: usize| {
-            let low = (centre - reach).floor().clamp(0.0, end as f32) as usize;
-            low..((centre + reach).ceil().clamp(0.0, end as f32) as usize).max(low)
-        };
-        let columns = range(centre.x, width);
-        let near = move |x: usize, y: usize| {
-            centre.distance_squared(Vec2::new(x as f32 + 0.5, y as f32 + 0.5)) <= reach * reach
-        };
-        range(centre.y, height)
-            .step_by(stride)
-            .flat_map(move |y| columns.clone().step_by(stride).map(move |x| (x, y)))
-            .filter(move |&(x, y)| near(x, y))
-    }
-}
+/// Rows of pixels across an edge of a landmark from which its place is measured, at least.
+const LEAST_ROWS: usize = 8;
 
 /// The parts of a picture that do not move.
 #[derive(Clone, Debug)]
@@ -81,18 +34,24 @@ impl Stage {
     /// Finds the arena. `frame` is the picture's number.
     pub(crate) fn find(picture: &Picture<'_>, frame: usize) -> Result<Self, TrackError> {
         let mut refusal = TrackError::NoArena { frame };
-        let mut best: Option<(f32, Self)> = None;
+        let mut best: Option<(usize, f32, Self)> = None;
         for (view, half_wall) in frames_of(picture) {
             match Self::in_frame(picture, view, half_wall) {
-                // Axes around the arena also make a square; walls then fit less well.
-                Ok((agreeing, stage)) if best.as_ref().is_none_or(|(most, _)| agreeing > most + 0.005) => {
-                    best = Some((agreeing, stage));
+                Ok((agreeing, stage)) => {
+                    let landmarks =
+                        stage.landmarks.iter().filter(|&&colour| stage.is_landmark(colour)).count();
+                    // A room also makes a square, but without all landmarks; so do axes around the arena, and
+                    // walls then fit less well.
+                    if best.as_ref().is_none_or(|&(most, agreed, _)| {
+                        landmarks > most || landmarks == most && agreeing > agreed + 0.005
+                    }) {
+                        best = Some((landmarks, agreeing, stage));
+                    }
                 }
-                Ok(_) => {}
                 Err(error) => refusal = error,
             }
         }
-        best.map(|(_, stage)| stage).ok_or(refusal)
+        best.map(|(_, _, stage)| stage).ok_or(refusal)
     }
 
     /// The stage in a square of lines, and the share of places at which the picture agrees with its layout.
@@ -114,12 +73,23 @@ impl Stage {
         };
         let (agreeing, layout) = stage.layout_of(picture)?;
         stage.layout = layout;
+        // Lines are drawn along the arena's edge or outside of it; landmarks tell which.
+        let outside = view.scaled(1.0 - 2.0 * half_wall / arena::SIDE);
+        if let Some(scale) = stage.scale_by_landmarks(picture)
+            && (scale - outside.scale).abs() < (scale - view.scale).abs()
+        {
+            stage.view = outside;
+        }
         Ok((agreeing, stage))
     }
 
     /// Whether any landmark has another colour than the floor.
     pub(crate) fn has_landmarks(&self) -> bool {
-        self.landmarks.iter().any(|landmark| distance(*landmark, self.floor) > 12.0 + 3.0 * self.noise)
+        self.landmarks.iter().any(|&landmark| self.is_landmark(landmark))
+    }
+
+    fn is_landmark(&self, colour: Rgb) -> bool {
+        distance(colour, self.floor) > 12.0 + 3.0 * self.noise
     }
 
     /// The colour at a world point without bodies.
@@ -186,12 +156,60 @@ impl Stage {
         }
     }
 
+    /// Pixels of a unit by the inner edges of landmarks, which are 5 u from the arena's middle. `None` where
+    /// there are no landmarks, or bodies hide their edges.
+    fn scale_by_landmarks(&self, picture: &Picture<'_>) -> Option<f32> {
+        let middle = self.view.pixel(arena::CENTRE);
+        let mut edges = Vec::new();
+        for (centre, colour) in LANDMARKS.into_iter().zip(self.landmarks) {
+            // Compression leaves edges of brightness where they are, but not those of colour.
+            let range = brightness(colour) - brightness(self.floor);
+            if range.abs() < 20.0 + 3.0 * self.noise {
+                continue;
+            }
+            let share = |pixel: Vec2| {
+                let seen = self.seen(picture, self.view.world(pixel))?;
+                let share = (brightness(seen) - brightness(self.floor)) / range;
+                (-0.2..=1.2).contains(&share).then_some(share)
+            };
+            let from = self.view.pixel(centre);
+            let inwards = (middle - from).signum();
+            let reach = (1.6 * LANDMARK_HALF_SIDE * self.view.scale) as usize;
+            let rows = (0.7 * LANDMARK_HALF_SIDE * self.view.scale) as i32;
+            for step in [Vec2::new(inwards.x, 0.0), Vec2::new(0.0, inwards.y)] {
+                let mut distances = Vec::new();
+                for row in -rows..=rows {
+                    let start = from.floor() + Vec2::splat(0.5) + step.perp() * row as f32;
+                    let shares: Option<Vec<f32>> =
+                        (0..reach).map(|k| share(start + step * k as f32)).collect();
+                    let Some(shares) = shares else { continue };
+                    let changes: f32 = shares.windows(2).map(|pair| (pair[1] - pair[0]).abs()).sum();
+                    if shares[0] > 0.8 && shares[reach - 1] < 0.2 && changes < 1.6 {
+                        // The first pixel begins half a pixel before its middle.
+                        let edge = start + step * (shares.iter().sum::<f32>() - 0.5);
+                        distances.push(((edge - middle) * step).length());
+                    }
+                }
+                distances.sort_by(f32::total_cmp);
+                if distances.len() >= LEAST_ROWS {
+                    edges.push(distances[distances.len() / 2]);
+                }
+            }
+        }
+        let from_middle = (arena::CENTRE.x - LANDMARKS[0].x).abs() - LANDMARK_HALF_SIDE;
+        (!edges.is_empty()).then(|| edges.iter().sum::<f32>() / (edges.len() as f32 * from_middle))
+    }
+
     fn seen(&self, picture: &Picture<'_>, point: Vec2) -> Option<Rgb> {
         let pixel = self.view.pixel(point);
         let (width, height) = picture.size();
         let inside = pixel.x >= 0.0 && pixel.y >= 0.0 && pixel.x < width as f32 && pixel.y < height as f32;
         inside.then(|| picture.at(pixel.x as usize, pixel.y as usize))
     }
+}
+
+fn brightness([red, green, blue]: Rgb) -> f32 {
+    0.299 * red + 0.587 * green + 0.114 * blue
 }
 
 /// Whether a landmark covers a point.
@@ -238,87 +256,4 @@ fn main_colour(picture: &Picture<'_>, view: View, is_part: impl Fn(Vec2) -> bool
     let mean = sum.map(|sum| sum / count);
     let variance = squares / count - mean.iter().map(|mean| mean * mean).sum::<f64>();
     (mean.map(|mean| mean as f32), (variance.max(0.0) / 3.0).sqrt() as f32)
-}
-
-/// Squares of long dark lines, the largest first, with half the width of their lines (u).
-fn frames_of(picture: &Picture<'_>) -> Vec<(View, f32)> {
-    let (width, height) = picture.size();
-    let dark = |x: usize, y: usize| darkness(picture.at(x, y));
-    // Bars beside or above the picture.
-    let mut columns = 0..width;
-    let mut rows = 0..height;
-    let row_is_bar = |y: usize| (0..width).map(|x| dark(x, y)).sum::<f32>() > 0.7 * width as f32;
-    let column_is_bar = |x: usize| (0..height).map(|y| dark(x, y)).sum::<f32>() > 0.7 * height as f32;
-    while !rows.is_empty() && row_is_bar(rows.start) {
-        rows.start += 1;
-    }
-    while !rows.is_empty() && row_is_bar(rows.end - 1) {
-        rows.end -= 1;
-    }
-    while !columns.is_empty() && column_is_bar(columns.start) {
-        columns.start += 1;
-    }
-    while !columns.is_empty() && column_is_bar(columns.end - 1) {
-        columns.end -= 1;
-    }
-    if rows.len() < 32 || columns.len() < 32 {
-        return Vec::new();
-    }
-    // A line at the picture's edge may itself be taken for a bar.
-    let rows = if rows.start > 0 && rows.start < 8 { 0..height } else { rows };
-    let columns = if columns.start > 0 && columns.start < 8 { 0..width } else { columns };
-    let of_columns: Vec<f32> = columns.clone().map(|x| rows.clone().map(|y| dark(x, y)).sum()).collect();
-    let least = 0.25 * columns.len().min(rows.len()) as f32;
-    let mut found = Vec::new();
-    for (left, right, wide) in pairs(&of_columns) {
-        let inside = columns.start + left as usize..(columns.start + right.ceil() as usize + 1).min(width);
-        let of_rows: Vec<f32> = rows.clone().map(|y| inside.clone().map(|x| dark(x, y)).sum()).collect();
-        for (top, bottom, high) in pairs(&of_rows) {
-            let sides = Vec2::new(right - left, bottom - top);
-            let is_square = (sides.x - sides.y).abs() < 0.03 * sides.max_element();
-            if !is_square || sides.max_element() < least || sides.x < 60.0 {
-                continue;
-            }
-            let scale = 0.5 * (sides.x + sides.y) / arena::SIDE;
-            let corner = Vec2::new(columns.start as f32 + left, rows.start as f32 + top);
-            let corner = corner + 0.5 * sides - Vec2::splat(0.5 * arena::SIDE * scale);
-            found.push((View { scale, corner }, 0.25 * (wide + high) / scale));
-        }
-    }
-    found.sort_by(|a, b| b.0.scale.total_cmp(&a.0.scale));
-    found.truncate(MOST_FRAMES);
-    found
-}
-
-/// The middles of two of the highest peaks of a profile, and the mean of their widths.
-fn pairs(profile: &[f32]) -> Vec<(f32, f32, f32)> {
-    let peaks = peaks(profile);
-    let pairs = peaks.iter().enumerate().flat_map(|(k, a)| peaks[k + 1..].iter().map(move |b| (a, b)));
-    pairs.filter(|(a, b)| b.0 - a.0 > 40.0).map(|(a, b)| (a.0, b.0, 0.5 * (a.1 + b.1))).collect()
-}
-
-/// The middles of the highest peaks of a profile, with their widths.
-fn peaks(profile: &[f32]) -> Vec<(f32, f32)> {
-    let most = profile.iter().copied().fold(0.0, f32::max);
-    if most < 20.0 {
-        return Vec::new();
-    }
-    let high = |k: usize| profile[k] > 0.6 * most;
-    let starts = (0..profile.len()).filter(|&k| high(k) && (k == 0 || !high(k - 1)));
-    let peak = |start: usize| {
-        let end = (start..profile.len()).take_while(|&k| high(k)).last().unwrap_or(start);
-        let from = start.saturating_sub(2);
-        let to = (end + 2).min(profile.len() - 1);
-        // Landmarks and bodies make a base below the peak.
-        let base = profile[from].max(profile[to]).min(0.4 * most);
-        let above = |k: usize| (profile[k] - base).max(0.0);
-        let total: f32 = (from..=to).map(above).sum();
-        let sum: f32 = (from..=to).map(|k| (k as f32 + 0.5) * above(k)).sum();
-        (sum / total, total / (most - base))
-    };
-    let all: Vec<_> = starts.map(peak).collect();
-    let ends = MOST_PEAKS / 2;
-    // The arena's edges are the outermost of all lines, or inside of a few others.
-    let kept = |k: usize| k < ends || k + ends >= all.len();
-    all.iter().enumerate().filter(|(k, _)| kept(*k)).map(|(_, peak)| *peak).collect()
 }

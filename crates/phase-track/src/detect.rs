@@ -22,6 +22,8 @@ const CLEAR: f32 = 18.0;
 const LEAST_AREA: f32 = 0.7;
 /// Directions in which an agent is looked for.
 const DIRECTIONS: usize = 12;
+/// Radius of the smallest body at which its form can be told (pixels looked at).
+const ENOUGH: f32 = 8.0;
 /// Bodies of a colour of their own that are looked for.
 const MOST_COLOURS: usize = 8;
 
@@ -44,8 +46,9 @@ pub(crate) fn bodies(
     let patches = patches(picture, stage, &walls);
     let mut best: Option<(f32, f32, Vec<Found>)> = None;
     for soft in EDGES {
+        let view = stage.view;
         let surroundings =
-            Surroundings { picture, ground, view: stage.view, soft, above: &[], below: &[], others: &[] };
+            Surroundings { picture, ground, view, soft, stride: 1, above: &[], below: &[], others: &[] };
         let looks = OUTLINES
             .into_iter()
             .flat_map(|[outline, margin]| [true, false].map(|eyes| Look { outline, margin, eyes, negative }))
@@ -93,7 +96,10 @@ struct Patch {
 fn patches(picture: &Picture<'_>, stage: &Stage, walls: &[Segment]) -> Vec<Patch> {
     let (width, height) = picture.size();
     let near = 26.0 + 3.0 * stage.noise;
+    // Pixels in the midst of a colour tell what colours there are; those at its edges count for its area,
+    // of which they are most where bodies are small.
     let mut pixels: Vec<(Vec2, Rgb)> = Vec::new();
+    let mut edges: Vec<(Vec2, Rgb)> = Vec::new();
     let corner = stage.view.corner;
     let side = stage.view.scale * phase_model::arena::SIDE;
     let range = |start: f32, end: usize| {
@@ -106,8 +112,8 @@ fn patches(picture: &Picture<'_>, stage: &Stage, walls: &[Segment]) -> Vec<Patch
                 .iter()
                 .all(|&(x, y)| distance(picture.at(x, y), colour) < near);
             let point = stage.view.point(x, y);
-            if plain && !stage.explains(colour, point, walls) {
-                pixels.push((point, colour));
+            if !stage.explains(colour, point, walls) {
+                if plain { &mut pixels } else { &mut edges }.push((point, colour));
             }
         }
     }
@@ -128,12 +134,15 @@ fn patches(picture: &Picture<'_>, stage: &Stage, walls: &[Segment]) -> Vec<Patch
             break;
         }
         let centre = median(&mine);
-        let close = mine.iter().filter(|(point, _)| point.distance(centre) < 3.2);
-        let count = close.clone().count();
-        let centre = close.fold(Vec2::ZERO, |sum, (point, _)| sum + *point) / count.max(1) as f32;
+        let is_close = |point: Vec2| point.distance(centre) < 3.2;
+        let close = mine.iter().filter(|(point, _)| is_close(*point));
+        let mut count = close.clone().count();
+        let middle = close.fold(Vec2::ZERO, |sum, (point, _)| sum + *point) / count.max(1) as f32;
+        let of_colour = |(point, it): &&(Vec2, Rgb)| is_close(*point) && distance(*it, colour) < 1.5 * near;
+        count += edges.iter().filter(of_colour).count();
         let area = count as f32 * pixel;
         if area >= LEAST_AREA {
-            patches.push(Patch { colour, centre, area });
+            patches.push(Patch { colour, centre: middle, area });
         }
     }
     patches
@@ -173,7 +182,9 @@ fn identify(surroundings: &Surroundings<'_>, patches: &[Patch], k: usize, look: 
     let patch = &patches[k];
     let others: Vec<Rgb> =
         patches.iter().enumerate().filter(|(other, _)| *other != k).map(|(_, other)| other.colour).collect();
-    let surroundings = &Surroundings { others: &others, ..*surroundings };
+    // What is found is looked at again with all pixels.
+    let stride = ((surroundings.view.scale * Size::ALL[0].radius() / ENOUGH) as usize).max(1);
+    let surroundings = &Surroundings { others: &others, stride, ..*surroundings };
     let mut best: Option<(f32, Found)> = None;
     for size in Size::ALL {
         let radius = size.radius();

@@ -1,9 +1,9 @@
 //! The pose of one body in one picture, by comparing the picture with what the body would look like.
 
 use crate::{
-    arena::View,
     picture::{Picture, Rgb, square},
     shape::{Appearance, Form, Pose},
+    view::View,
 };
 use phase_model::Vec2;
 
@@ -43,6 +43,8 @@ pub(crate) struct Surroundings<'a> {
     pub(crate) view: View,
     /// Width of edges (pixels), at least [`SHARP`].
     pub(crate) soft: f32,
+    /// Distance of the pixels that a fit looks at (pixels): with more than 1 it is faster, and less exact.
+    pub(crate) stride: usize,
     /// Bodies that are drawn over it.
     pub(crate) above: &'a [(Appearance, Pose)],
     /// Bodies that are drawn under it.
@@ -67,14 +69,19 @@ impl Surroundings<'_> {
     /// All pixels within `reach` (u) of a place that no other body hides, and the share of pixels hidden.
     fn samples(&self, centre: Vec2, reach: f32, stride: usize) -> Vec<Sample> {
         let soft = self.soft / self.view.scale;
+        let by = 2.0 * soft;
+        let near = |bodies: &[(Appearance, Pose)]| -> Vec<(Appearance, Frame)> {
+            let far = |body: &Appearance| reach + body.reach() + by;
+            let is_near = |(body, pose): &&(Appearance, Pose)| pose.position.distance(centre) < far(body);
+            bodies.iter().filter(is_near).map(|(body, pose)| (*body, Frame::new(pose))).collect()
+        };
+        let (above, below) = (near(self.above), near(self.below));
         let mut samples = Vec::new();
         for (x, y) in self.view.pixels_within(self.picture.size(), centre, reach, stride) {
             let point = self.view.point(x, y);
-            let covered = |(body, pose): &(Appearance, Pose), by: f32| {
-                point.distance(pose.position) < body.reach() + by
-                    && body.cover(local(pose, point), soft + 2.0 * by) > 0.02
-            };
-            if self.above.iter().any(|body| covered(body, soft)) {
+            let covered =
+                |(body, frame): &(Appearance, Frame)| body.cover(frame.local(point), 3.0 * soft) > 0.02;
+            if above.iter().any(covered) {
                 continue;
             }
             let seen = self.picture.at(x, y);
@@ -82,10 +89,8 @@ impl Surroundings<'_> {
                 continue;
             }
             let mut under = self.ground(x, y);
-            for (body, pose) in self.below {
-                if point.distance(pose.position) < body.reach() + soft {
-                    under = body.over(under, local(pose, point), soft);
-                }
+            for (body, frame) in &below {
+                under = body.over(under, frame.local(point), soft);
             }
             samples.push(Sample { point, seen, under });
         }
@@ -95,7 +100,7 @@ impl Surroundings<'_> {
     /// The best pose near `start`; its edges are first taken as `blur` wide (pixels), which widens the range.
     pub(crate) fn fit(&self, body: &Appearance, start: Pose, blur: f32) -> Fit {
         let pixel = 1.0 / self.view.scale;
-        let samples = self.samples(start.position, body.reach() + (blur + 1.0) * pixel, 1);
+        let samples = self.samples(start.position, body.reach() + (blur + 1.0) * pixel, self.stride);
         let mut fit = Fit { pose: start, ..Fit::default() };
         let mut soft = blur.max(self.soft);
         let mut steps = 0;
@@ -119,7 +124,7 @@ impl Surroundings<'_> {
     /// Share of a body in a pose that no other body hides.
     pub(crate) fn visible(&self, body: &Appearance, pose: &Pose) -> f32 {
         let mut fit = Fit { pose: *pose, ..Fit::default() };
-        self.judge(body, &self.samples(pose.position, body.reach(), 1), &mut fit);
+        self.judge(body, &self.samples(pose.position, body.reach(), self.stride), &mut fit);
         fit.visible
     }
 
@@ -127,10 +132,11 @@ impl Surroundings<'_> {
     /// sizes apart.
     pub(crate) fn mismatch(&self, body: &Appearance, pose: &Pose, centre: Vec2) -> f32 {
         let soft = self.soft / self.view.scale;
+        let frame = Frame::new(pose);
         let mut sum = 0.0;
         let mut count = 0.0_f32;
         for sample in self.samples(centre, 3.2, 2) {
-            let look = body.over(sample.under, local(pose, sample.point), soft);
+            let look = body.over(sample.under, frame.local(sample.point), soft);
             sum += square(sample.seen, look).min(OUTLIER * OUTLIER);
             count += 1.0;
         }
@@ -149,18 +155,21 @@ impl Surroundings<'_> {
             Pose { position: pose.position + Vec2::new(0.0, delta), ..pose },
             Pose { angle: pose.angle + turn, ..pose },
         ]
-        .map(|pose| (pose.position, Vec2::from_angle(-pose.angle)));
+        .map(|pose| Frame::new(&pose));
         let units = [delta, delta, turn];
         let mut matrix = [[0.0_f64; 3]; 3];
         let mut vector = [0.0_f64; 3];
         let mut squares = 0.0_f64;
         let mut weights = 0.0_f64;
+        let per_distance = 1.01 * delta / body.radius;
         for sample in samples {
-            let look = |k: usize| {
-                let (position, rotation) = frames[k];
-                body.over(sample.under, rotation.rotate(sample.point - position), soft)
-            };
-            let now = look(0);
+            // Most pixels show nothing of an edge, and have no say.
+            let local = frames[0].local(sample.point);
+            if body.is_plain(local, soft, per_distance * local.length().max(body.radius)) {
+                continue;
+            }
+            let look = |k: usize| body.over(sample.under, frames[k].local(sample.point), soft);
+            let now = body.over(sample.under, local, soft);
             let moved: [Rgb; 3] = core::array::from_fn(|k| if k < size { look(k + 1) } else { now });
             if moved.iter().all(|moved| *moved == now) {
                 continue;
@@ -170,15 +179,21 @@ impl Surroundings<'_> {
             squares += weight * f64::from(off);
             weights += weight * 3.0;
             for channel in 0..3 {
-                let slope: [f64; 3] =
-                    core::array::from_fn(|k| f64::from((moved[k][channel] - now[channel]) / units[k]));
+                let slope = moved.map(|moved| f64::from(moved[channel] - now[channel]));
                 let off = f64::from(sample.seen[channel] - now[channel]);
-                for row in 0..size {
+                for row in 0..3 {
                     vector[row] += weight * slope[row] * off;
-                    for column in 0..size {
+                    for column in 0..=row {
                         matrix[row][column] += weight * slope[row] * slope[column];
                     }
                 }
+            }
+        }
+        for row in 0..3 {
+            vector[row] /= f64::from(units[row]);
+            for column in 0..=row {
+                matrix[row][column] /= f64::from(units[row] * units[column]);
+                matrix[column][row] = matrix[row][column];
             }
         }
         for (k, row) in matrix.iter_mut().enumerate() {
@@ -209,12 +224,12 @@ impl Surroundings<'_> {
     /// Measures to what extent the pose explains the picture.
     fn judge(&self, body: &Appearance, samples: &[Sample], fit: &mut Fit) {
         let soft = self.soft / self.view.scale;
-        let rotation = Vec2::from_angle(-fit.pose.angle);
+        let frame = Frame::new(&fit.pose);
         let mut sum = 0.0;
         let mut around = 0.0;
         let mut count = 0.0;
         for sample in samples {
-            let local = rotation.rotate(sample.point - fit.pose.position);
+            let local = frame.local(sample.point);
             let off = square(sample.seen, body.over(sample.under, local, soft)).min(OUTLIER * OUTLIER);
             if body.cover(local, soft) > 0.5 {
                 sum += off;
@@ -223,7 +238,8 @@ impl Surroundings<'_> {
                 around += off;
             }
         }
-        let area = self.view.scale * self.view.scale * body.radius * body.radius;
+        let side = self.view.scale * body.radius / self.stride as f32;
+        let area = side * side;
         let whole = area * if body.form == Form::Disc { core::f32::consts::PI } else { 4.0 };
         fit.visible = (count / whole).min(1.0);
         fit.difference = if count > 0.0 { (sum / count).sqrt() } else { OUTLIER };
@@ -231,9 +247,22 @@ impl Surroundings<'_> {
     }
 }
 
-/// A point in the body's frame.
-pub(crate) fn local(pose: &Pose, point: Vec2) -> Vec2 {
-    Vec2::from_angle(-pose.angle).rotate(point - pose.position)
+/// The frame of a body.
+#[derive(Clone, Copy)]
+struct Frame {
+    origin: Vec2,
+    back: Vec2,
+}
+
+impl Frame {
+    fn new(pose: &Pose) -> Self {
+        Self { origin: pose.position, back: Vec2::from_angle(-pose.angle) }
+    }
+
+    /// A point in it.
+    fn local(&self, point: Vec2) -> Vec2 {
+        self.back.rotate(point - self.origin)
+    }
 }
 
 /// The inverse of a symmetric matrix; of zeros where it has none.

@@ -36,10 +36,11 @@ mod picture;
 mod rows;
 mod shape;
 mod shapes;
+mod squares;
 mod table;
 mod tracker;
+mod view;
 
-pub use arena::View;
 pub use error::TrackError;
 pub use event::{Role, Roles};
 pub use picture::{MOST_PIXELS_ACROSS, Picture};
@@ -48,3 +49,4 @@ pub use shape::{Form, Pose};
 pub use shapes::{Shape, ShapeTrack, ShapeTracker, Survey};
 pub use table::{TableOptions, table};
 pub use tracker::{Measured, Moment, Track, TrackedBody, Tracker};
+pub use view::View;

@@ -37,6 +37,15 @@ pub(crate) struct Look {
 /// Brightness of outlines.
 const OUTLINE: f32 = 40.0;
 
+/// Place of the right eye in the frame of an agent of radius 1, and the radius of its rim.
+const EYE: Vec2 = Vec2::new(0.5, 0.5);
+const EYE_RADIUS: f32 = 0.335;
+/// Place and radius of its pupil, which lies at the front.
+const PUPIL: Vec2 = Vec2::new(0.5, 0.7);
+const PUPIL_RADIUS: f32 = 0.224;
+/// Distance from the eye's middle beyond which nothing of it is drawn.
+const EYE_REACH: f32 = 0.43;
+
 /// A body as it is drawn.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Appearance {
@@ -69,6 +78,24 @@ impl Appearance {
         (0.5 - self.depth(point) / soft).clamp(0.0, 1.0)
     }
 
+    /// Whether all points within `near` (u) of one in the body's frame surely look as it does: they lie
+    /// outside of the body, or in its plain colour.
+    pub(crate) fn is_plain(&self, point: Vec2, soft: f32, near: f32) -> bool {
+        let depth = self.depth(point) - self.look.margin;
+        // Edges, and what rounding may add to them.
+        let edge = 0.5 * soft + near + 1e-4;
+        if depth > edge + if self.look.eyes { 0.1 * self.radius } else { 0.0 } {
+            return true;
+        }
+        if depth + self.look.outline + self.look.margin > -edge {
+            return false;
+        }
+        if !self.look.eyes || self.form != Form::Trapezoid {
+            return true;
+        }
+        Vec2::new(point.x.abs(), point.y).distance(EYE * self.radius) > EYE_REACH * self.radius + edge
+    }
+
     /// The colour at a point in the body's frame over what lies under it.
     pub(crate) fn over(&self, under: Rgb, point: Vec2, soft: f32) -> Rgb {
         let depth = self.depth(point) - self.look.margin;
@@ -87,12 +114,14 @@ impl Appearance {
         if self.look.eyes && self.form == Form::Trapezoid {
             let unit = Vec2::new(point.x.abs(), point.y) / self.radius;
             let soft = soft / self.radius;
-            let disc = |centre: f32, radius: f32| {
-                (0.5 - (unit.distance(Vec2::new(0.5, centre)) - radius) / soft).clamp(0.0, 1.0)
-            };
-            colour = mix(colour, as_seen(0.0), disc(0.5, 0.335));
-            colour = mix(colour, as_seen(255.0), disc(0.5, 0.291));
-            colour = mix(colour, as_seen(0.0), disc(0.7, 0.224));
+            if unit.distance_squared(EYE) > (EYE_REACH + 0.5 * soft) * (EYE_REACH + 0.5 * soft) {
+                return colour;
+            }
+            let disc =
+                |centre: Vec2, radius: f32| (0.5 - (unit.distance(centre) - radius) / soft).clamp(0.0, 1.0);
+            colour = mix(colour, as_seen(0.0), disc(EYE, EYE_RADIUS));
+            colour = mix(colour, as_seen(255.0), disc(EYE, 0.291));
+            colour = mix(colour, as_seen(0.0), disc(PUPIL, PUPIL_RADIUS));
         }
         colour
     }

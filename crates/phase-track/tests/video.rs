@@ -25,6 +25,8 @@ struct Video {
     bars: usize,
     /// Distance of the axes around the arena (u); none at 0.
     axes: f32,
+    /// Edges of the line around the arena (u outwards from its edge).
+    boundary: [f32; 2],
     layout: (u8, usize),
     radii: [f32; 4],
 }
@@ -38,6 +40,7 @@ const PUBLISHED: Video = Video {
     noise: 0.0,
     bars: 0,
     axes: 0.0,
+    boundary: [-0.125, 0.125],
     layout: (20, 1),
     radii: RADII,
 };
@@ -79,7 +82,8 @@ impl Video {
             let share = ((point - a).dot(along) / along.length_squared()).clamp(0.0, 1.0);
             (point - a - along * share).abs().max_element() < 0.125
         };
-        if (off.max_element() - 10.0).abs() < 0.125 || walls.iter().any(|wall| near_wall(wall.a, wall.b)) {
+        let [inner, outer] = self.boundary.map(|edge| 10.0 + edge);
+        if (inner..outer).contains(&off.max_element()) || walls.iter().any(|wall| near_wall(wall.a, wall.b)) {
             return [0.0; 3];
         }
         let landmark = arena::LANDMARKS.iter().position(|centre| (point - *centre).abs().max_element() < 2.5);
@@ -171,6 +175,28 @@ fn the_published_style_is_read_to_a_fraction_of_a_pixel() {
     let (place, turn) = errors(&track, walk);
     assert!(place < 0.1 && turn < 0.05, "{place} u, {turn} rad");
     assert_eq!(track.meaning(), FrameMeaning::Substeps);
+}
+
+/// A line around the arena says the same of its size as landmarks, wherever it is drawn.
+#[test]
+fn the_arena_is_as_large_as_its_landmarks_say() {
+    let half = Video { width: 320, height: 240, scale: 10.0, corner: (60.0, 20.0), ..PUBLISHED };
+    for video in [PUBLISHED, half] {
+        let outside = Video { boundary: [0.0, 0.1], ..video }.track(0.6, walk).expect("a track");
+        assert!((outside.view.scale / video.scale - 1.0).abs() < 1e-3, "{:?}", outside.view);
+        let along = video.track(0.6, walk).expect("a track");
+        assert!((along.view.scale / video.scale - 1.0).abs() < 1e-3, "{:?}", along.view);
+    }
+}
+
+/// Agents of the smallest size have few pixels of plain colour at half size.
+#[test]
+fn small_agents_in_small_pictures_are_found() {
+    let radii = [0.8, 0.8, 1.01, 1.01];
+    let video = Video { width: 320, height: 240, scale: 5.0, corner: (60.0, 20.0), radii, ..PUBLISHED };
+    let track = video.track(0.6, walk).expect("a track");
+    let (place, turn) = errors(&track, walk);
+    assert!(place < 0.15 && turn < 0.1, "{place} u, {turn} rad");
 }
 
 /// The negative of a picture has light lines on a dark ground.

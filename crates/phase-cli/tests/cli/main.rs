@@ -33,6 +33,7 @@ mod stats;
 mod study;
 mod support;
 mod threads;
+mod track;
 #[cfg(feature = "networks")]
 mod train;
 mod verify;

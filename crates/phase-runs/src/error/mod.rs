@@ -203,6 +203,12 @@ pub enum RunError {
     /// A stop was requested, see [`crate::interrupt`].
     #[error("interrupted; what is finished is kept in {}, and the same command goes on from there", .0.display())]
     Interrupted(PathBuf),
+    /// A stop of a run that begins again from nothing was requested.
+    #[error("interrupted; {}", .0.as_ref().map_or_else(
+        || "nothing is written".to_owned(),
+        |file| format!("{} contains what was finished before", file.display()),
+    ))]
+    Stopped(Option<PathBuf>),
 }
 
 /// Thing that has to change for a run to succeed.
@@ -221,7 +227,9 @@ impl RunError {
     #[must_use]
     pub const fn fault(&self) -> Fault {
         match self {
-            Self::Track { source: VideoError::Interrupted, .. } | Self::Interrupted(_) => Fault::Interruption,
+            Self::Track { source: VideoError::Interrupted, .. } | Self::Interrupted(_) | Self::Stopped(_) => {
+                Fault::Interruption
+            }
             Self::File(_)
             | Self::Folder(_)
             | Self::Output(_)

@@ -6,13 +6,17 @@ mod mp4;
 mod pictures;
 
 pub use crate::error::video::VideoError;
-use crate::{error::RunError, interrupt::requested};
+use crate::{error::RunError, interrupt::requested, parallel::make_all};
 use phase_event::{ObservedEvent, Tracking, check_id};
 use phase_files::{FileError, Problem, regular};
 use phase_track::{
     FrameMeaning, Picture, Roles, ShapeTrack, Survey, TableOptions, Track, TrackError, Tracker,
 };
-use std::path::{Path, PathBuf};
+use std::{
+    collections::BTreeMap,
+    path::{Path, PathBuf},
+    sync::{Mutex, PoisonError},
+};
 
 /// Takes decoded frames: width and height (pixels), red, green and blue of each pixel, and the time (s).
 type Sink<'a> = &'a mut dyn FnMut((usize, usize), &[u8], f64) -> Result<(), VideoError>;
@@ -82,6 +86,32 @@ pub struct Tracked {
     pub tracking: Tracking,
     /// All shapes of a video that does not show an arena with agents.
     pub shapes: Option<ShapeTrack>,
+}
+
+/// Reads many inputs, several at once; `done` is called with each that has been read or refused. Returns, in
+/// their order, those that were done before an interruption.
+///
+/// # Errors
+/// [`RunError::Usage`] for an unusable `id`, or for two inputs of one name; [`RunError::Threads`].
+pub fn read_all(
+    runs: &[TrackRun],
+    threads: usize,
+    done: impl Fn(&TrackRun) + Sync,
+) -> Result<Vec<Result<Tracked, RunError>>, RunError> {
+    let mut names = runs.iter().map(TrackRun::id).collect::<Result<Vec<_>, _>>()?;
+    names.iter_mut().for_each(|name| name.make_ascii_lowercase());
+    names.sort();
+    if let Some(pair) = names.windows(2).find(|pair| pair[0] == pair[1]) {
+        return Err(RunError::Usage(format!("two inputs give an event {}; rename one", pair[0])));
+    }
+    let read: Mutex<BTreeMap<usize, Result<Tracked, RunError>>> = Mutex::default();
+    make_all(threads, runs.len(), |index| {
+        let result = runs[index].read();
+        read.lock().unwrap_or_else(PoisonError::into_inner).insert(index, result);
+        done(&runs[index]);
+        Ok(Some(()))
+    })?;
+    Ok(read.into_inner().unwrap_or_else(PoisonError::into_inner).into_values().collect())
 }
 
 impl TrackRun {

@@ -14,6 +14,10 @@ use phase_model::{Size, Vec2};
 
 /// Longest time that a body may be hidden (s).
 const LONGEST_HIDDEN: f64 = 3.0;
+/// Farthest way of a body from one frame to the next (u): that of a step, where rows are held.
+const FARTHEST: f32 = 4.0;
+/// Greatest speed of a body that is hidden (u/s).
+const FASTEST: f32 = 16.0;
 /// Difference of colour above which a pose does not explain the picture.
 const POOR: f32 = 38.0;
 /// Share of a body that must be in sight for its pose to be measured.
@@ -54,8 +58,7 @@ pub(super) struct Known {
     soft: f32,
     ground: Vec<u8>,
     /// Pixels of the ground that no picture has shown yet.
-    guessed: Vec<bool>,
-    guesses: usize,
+    guessed: Vec<usize>,
     pub(super) followed: Vec<Followed>,
     followed_frames: usize,
 }
@@ -99,8 +102,7 @@ impl Known {
         let mut known = Self {
             size: (width, height),
             soft,
-            guessed: vec![true; width * height],
-            guesses: width * height,
+            guessed: (0..width * height).collect(),
             followed: followed.collect(),
             followed_frames: 0,
             ground,
@@ -124,9 +126,7 @@ impl Known {
     pub(super) fn follow(&mut self, picture: &Picture<'_>, before: f64, now: f64) -> Result<(), TrackError> {
         self.followed_frames += 1;
         self.fit_all(picture, before, now)?;
-        if self.guesses > 0 {
-            self.learn_ground(picture);
-        }
+        self.learn_ground(picture);
         Ok(())
     }
 
@@ -150,6 +150,7 @@ impl Known {
                 ground: &self.ground,
                 view: self.stage.view,
                 soft: self.soft,
+                stride: 1,
                 above: &above,
                 below: &below,
                 others: &[],
@@ -173,7 +174,7 @@ impl Known {
             }
             let is_poor = |fit: &Fit| fit.difference > usual + 12.0 || fit.visible < 2.0 * LEAST_VISIBLE;
             if is_poor(&fit) && interval != 0.0 {
-                for start in self.elsewhere(&surroundings, &it, predicted) {
+                for start in self.elsewhere(&surroundings, &it, predicted, now) {
                     let other = surroundings.fit(&it.body, start, 4.0 * SHARP);
                     if other.difference / other.visible.max(0.1) < fit.difference / fit.visible.max(0.1) {
                         fit = other;
@@ -193,7 +194,8 @@ impl Known {
                     let colour = format!("#{red:02x}{green:02x}{blue:02x}");
                     return Err(TrackError::Lost { colour, start: it.seen, seconds: hidden });
                 }
-                let predicted = hiding_place(&surroundings, &it.body, predicted);
+                let near = FASTEST * hidden.abs() as f32;
+                let predicted = hiding_place(&surroundings, &it.body, predicted, near);
                 let error = 0.1 + it.velocity.length() * hidden.abs() as f32;
                 fit = Fit { pose: predicted, deviation: [error, error, error / it.body.radius], ..fit };
                 self.followed[k].fit = fit;
@@ -232,13 +234,20 @@ impl Known {
     }
 
     /// Poses from which to look for a body that is not where it was expected: where its colour is.
-    fn elsewhere(&self, surroundings: &Surroundings<'_>, it: &Followed, predicted: Pose) -> Vec<Pose> {
+    fn elsewhere(
+        &self,
+        surroundings: &Surroundings<'_>,
+        it: &Followed,
+        predicted: Pose,
+        now: f64,
+    ) -> Vec<Pose> {
         let picture = surroundings.picture;
         let view = self.stage.view;
         let near = 40.0 + 3.0 * self.stage.noise;
         let colour = it.body.colour;
         let mut points: Vec<Vec2> = Vec::new();
-        for (x, y) in view.pixels_within(picture.size(), phase_model::arena::CENTRE, 14.0, 2) {
+        let reach = it.body.reach() + FARTHEST + FASTEST * (now - it.seen).abs() as f32;
+        for (x, y) in view.pixels_within(picture.size(), it.fit.pose.position, reach, 2) {
             let k = 3 * (y * picture.size().0 + x);
             let ground = [0, 1, 2].map(|channel| f32::from(self.ground[k + channel]));
             let seen = picture.at(x, y);
@@ -271,31 +280,29 @@ impl Known {
 
     /// Takes over what the picture shows of the ground that was only guessed.
     fn learn_ground(&mut self, picture: &Picture<'_>) {
-        let (width, height) = self.size;
         let margin = 4.0 / self.stage.view.scale;
-        let mut covered = vec![false; width * height];
-        for followed in &self.followed {
-            let pose = followed.fit.pose;
-            for (x, y) in
-                self.stage.view.pixels_within(self.size, pose.position, followed.body.reach() + margin, 1)
-            {
-                covered[y * width + x] = true;
+        let view = self.stage.view;
+        let width = self.size.0;
+        let followed = &self.followed;
+        let ground = &mut self.ground;
+        self.guessed.retain(|&pixel| {
+            let point = view.point(pixel % width, pixel / width);
+            let covers = |it: &Followed| {
+                let reach = it.body.reach() + margin;
+                it.fit.pose.position.distance_squared(point) <= reach * reach
+            };
+            let covered = followed.iter().any(covers);
+            if !covered {
+                ground[3 * pixel..3 * pixel + 3].copy_from_slice(&picture.bytes()[3 * pixel..3 * pixel + 3]);
             }
-        }
-        let shown = picture.bytes().chunks_exact(3);
-        let pixels = self.ground.chunks_exact_mut(3).zip(shown);
-        for ((guessed, covered), (ground, shown)) in self.guessed.iter_mut().zip(covered).zip(pixels) {
-            if *guessed && !covered {
-                ground.copy_from_slice(shown);
-                *guessed = false;
-                self.guesses -= 1;
-            }
-        }
+            covered
+        });
     }
 }
 
-/// The pose nearest to a prediction in which other bodies hide the body; the prediction if there is none.
-fn hiding_place(surroundings: &Surroundings<'_>, body: &Appearance, predicted: Pose) -> Pose {
+/// The pose nearest to a prediction in which other bodies hide the body; the prediction if there is none
+/// `near` it (u).
+fn hiding_place(surroundings: &Surroundings<'_>, body: &Appearance, predicted: Pose, near: f32) -> Pose {
     let others: Vec<(Appearance, Pose)> =
         surroundings.above.iter().chain(surroundings.below).copied().collect();
     let colours: Vec<Rgb> = others.iter().map(|(other, _)| other.colour).collect();
@@ -305,7 +312,10 @@ fn hiding_place(surroundings: &Surroundings<'_>, body: &Appearance, predicted: P
         (0..=8)
             .map(move |k| Pose { position: predicted.position.lerp(towards, 0.125 * k as f32), ..predicted })
     };
-    let hidden = others.iter().flat_map(between).filter(|pose| surroundings.visible(body, pose) < MOST_OPEN);
     let off = |pose: &Pose| pose.position.distance(predicted.position);
+    let hidden = others
+        .iter()
+        .flat_map(between)
+        .filter(|pose| off(pose) <= near && surroundings.visible(body, pose) < MOST_OPEN);
     hidden.min_by(|a, b| off(a).total_cmp(&off(b))).unwrap_or(predicted)
 }

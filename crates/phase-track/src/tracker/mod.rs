@@ -4,9 +4,10 @@ mod known;
 
 use crate::{
     TrackError,
-    arena::{Stage, View},
+    arena::Stage,
     picture::{Picture, negative},
     shape::{Form, Pose},
+    view::View,
 };
 use known::{Followed, Known};
 use phase_model::{Layout, Size};
