@@ -197,7 +197,11 @@ impl Stage {
             }
         }
         let from_middle = (arena::CENTRE.x - LANDMARKS[0].x).abs() - LANDMARK_HALF_SIDE;
-        (!edges.is_empty()).then(|| edges.iter().sum::<f32>() / (edges.len() as f32 * from_middle))
+        // Bodies of much the same brightness may move some edges.
+        edges.sort_by(f32::total_cmp);
+        let middle = [edges.len().saturating_sub(1) / 2, edges.len() / 2].map(|k| edges.get(k).copied());
+        let [Some(low), Some(high)] = middle else { return None };
+        Some(0.5 * (low + high) / from_middle)
     }
 
     fn seen(&self, picture: &Picture<'_>, point: Vec2) -> Option<Rgb> {
