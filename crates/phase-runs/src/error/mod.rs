@@ -205,7 +205,7 @@ pub enum RunError {
     Interrupted(PathBuf),
     /// A stop of a run that begins again from nothing was requested.
     #[error("interrupted; {}", .0.as_ref().map_or_else(
-        || "nothing is written".to_owned(),
+        || "the same command begins again".to_owned(),
         |file| format!("{} contains what was finished before", file.display()),
     ))]
     Stopped(Option<PathBuf>),

@@ -51,7 +51,7 @@ impl AreaRun {
             listener.progress(&format!("measuring {}", words::events(source.len())), source.len(), 1);
         for index in 0..source.len() {
             if interrupt::requested() {
-                return Err(RunError::Interrupted(self.out.clone()));
+                return Err(RunError::Stopped(None));
             }
             let recording = source.load(index)?;
             let physics = recording.scene.physics();

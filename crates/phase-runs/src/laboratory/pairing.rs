@@ -96,7 +96,7 @@ impl Pairing {
             Ok(Some(Some(Candidate { id: recording.id.clone(), kind: kind.to_owned(), measures })))
         })?;
         drop(progress);
-        let measured = measured.ok_or_else(|| RunError::Interrupted(self.out.clone()))?;
+        let measured = measured.ok_or(RunError::Stopped(None))?;
         let candidates: Vec<Candidate> = measured.into_iter().flatten().collect();
         let result = matched(&self.on, &candidates, self.caliper)
             .map_err(|error| RunError::Usage(format!("{}: {error}", self.events.display())))?;

@@ -211,7 +211,7 @@ impl QuestionRun {
                 progress.steps(units[index].events.len());
                 unit
             })?;
-            let made = made.ok_or_else(|| RunError::Interrupted(self.out.clone()))?;
+            let made = made.ok_or(RunError::Stopped(None))?;
             for facts in made.into_iter().flatten() {
                 if !known.insert(facts.id.to_ascii_lowercase()) {
                     return Err(unusable(path, &format!("event {} is in another input, too", facts.id)));
@@ -250,7 +250,7 @@ impl QuestionRun {
             progress.steps(1);
             judged
         })?;
-        let judged = judged.ok_or_else(|| RunError::Interrupted(self.out.clone()))?;
+        let judged = judged.ok_or(RunError::Stopped(None))?;
         Ok(Watcher::new(shown, judged))
     }
 
@@ -285,7 +285,7 @@ impl QuestionRun {
             Ok(Some(()))
         })?;
         drop(progress);
-        made.map(|_| ()).ok_or_else(|| RunError::Interrupted(self.out.clone()))
+        made.map(|_| ()).ok_or(RunError::Stopped(None))
     }
 }
 

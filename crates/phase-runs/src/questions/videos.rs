@@ -39,7 +39,7 @@ pub(super) fn write(out: &Path, name: &str, shown: &[Shown], side: u32, seed: u6
     let all: Vec<usize> = (0..frames.len()).collect();
     for (control, folder) in FOLDERS {
         if interrupt::requested() {
-            return Err(RunError::Interrupted(out.to_owned()));
+            return Err(RunError::Stopped(None));
         }
         let order = match control {
             Control::FirstFrame => vec![0; STILL],

@@ -49,14 +49,13 @@ pub(super) fn problems(
     let scenes = origin.scenes();
     let count = manifest.events.len();
     let progress = listener.progress_over(&format!("replaying {}", words::events(count)), count);
-    let mut problems = over(folder, threads, count, |k| {
+    let mut problems = over(threads, count, |k| {
         let problem = event((folder, &look), &manifest.events[k], k, &origin, &scenes);
         progress.steps(1);
         problem
     })?;
-    problems.extend(over(folder, threads, manifest.sets.len(), |k| {
-        set((folder, &look), manifest, &manifest.sets[k])
-    })?);
+    problems
+        .extend(over(threads, manifest.sets.len(), |k| set((folder, &look), manifest, &manifest.sets[k]))?);
     drop(progress);
     if problems.is_empty() {
         problems = derived::problems(folder, manifest, &Silent)?;
@@ -66,13 +65,12 @@ pub(super) fn problems(
 
 /// The problems that a check of each of several things finds.
 fn over(
-    folder: &Path,
     threads: usize,
     count: usize,
     check: impl Fn(usize) -> Result<(), FileError> + Sync,
 ) -> Result<Vec<FileError>, RunError> {
     let answers = make_all(threads, count, |k| Ok(Some(check(k).err())))?;
-    let answers = answers.ok_or_else(|| RunError::Interrupted(folder.to_owned()))?;
+    let answers = answers.ok_or(RunError::Stopped(None))?;
     Ok(answers.into_iter().flatten().collect())
 }
 
@@ -128,7 +126,7 @@ pub(super) fn simulated_again(
         progress.steps(1);
         answer
     })?;
-    let answers = answers.ok_or_else(|| RunError::Interrupted(folder.to_owned()))?;
+    let answers = answers.ok_or(RunError::Stopped(None))?;
     Ok(answers.into_iter().flatten().collect())
 }
 
