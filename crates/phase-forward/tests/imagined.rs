@@ -1,9 +1,10 @@
 //! The published planner's idea of the dynamics: a held object hangs on a spring that keeps its distance and
 //! no more.
 
-use phase_forward::{Forward, Imagined};
+use phase_forward::{Forward, Imagined, OriginalWorld};
 use phase_model::{
     Action, AgentBody, AgentId, Body, Dynamics, Entity, Grip, ObjectId, PhysicsConfig, Side, State, Vec2,
+    arena::SUBSTEPS,
 };
 
 const ME: Entity = Entity::Agent(AgentId::ZERO);
@@ -128,4 +129,35 @@ fn the_strongest_coast() {
         let after = step(&Imagined::new(&physics).with_coasting_strongest(), state, Action::Stop);
         assert_eq!(after.body(ME).velocity.y > 0.0, coasts);
     }
+}
+
+/// From rest, n substeps of a push take an agent (F − 100 N) n (n + 1) / (7200 m) far, if speed carries over.
+#[test]
+fn speed_lasts_in_the_original_world() {
+    const STEPS: usize = 3;
+    let mut world = OriginalWorld::new(&physics(), &holding(false));
+    for _ in 0..STEPS {
+        world.step([Action::Down, Action::NoForce]);
+    }
+    let substeps = (STEPS * SUBSTEPS) as f32;
+    let expected = (450.0 - 100.0) * substeps * (substeps + 1.0) / (7200.0 * physics().agents[0].mass());
+    let moved = 8.0 - world.state().position(ME).y;
+    assert!((moved - expected).abs() < 1e-3, "{moved} instead of {expected}");
+}
+
+/// A grip pulls the object to the hand, and both turn together.
+#[test]
+fn grips_of_the_original_world_are_rigid() {
+    const TWIST: f32 = 0.04;
+    let mut world = OriginalWorld::new(&physics(), &holding(false));
+    world.step([Action::Attach, Action::NoForce]);
+    for _ in 0..4 {
+        world.step([Action::TurnLeft, Action::NoForce]);
+    }
+    let state = world.state();
+    let turned = state.body(ME).angle;
+    assert!(turned > 0.2, "{turned}");
+    assert!((state.body(BALL).angle - turned).abs() < TWIST, "{}", state.body(BALL).angle);
+    let distance = state.position(ME).distance(state.position(BALL));
+    assert!((distance - 2.0 * RADIUS).abs() < 0.02, "{distance}");
 }
