@@ -277,6 +277,12 @@ impl SetGroup {
         if distinct.len() < 2 || distinct.len() != self.stances.len() {
             return Err("field `stances` must name two or more different stances".into());
         }
+        let of_beliefs = self.stances.iter().filter(|stance| stance.sight().is_some()).count();
+        if of_beliefs != 0 && of_beliefs != self.stances.len() {
+            return Err(
+                "the stances unaware and told make sets of their own: only in these an agent waits".into()
+            );
+        }
         match self.stances.iter().find(|stance| !stance.suits(self.about)) {
             Some(stance) => Err(format!("the stance {} needs a goal about an object", stance.name())),
             None => Ok(()),

@@ -43,6 +43,7 @@
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 
+pub mod beliefs;
 pub mod benchmark;
 pub mod comparison;
 pub mod estimate;

@@ -2,6 +2,7 @@
 
 use crate::{
     Estimate,
+    beliefs::{BeliefEvent, BeliefSummary},
     goals::{self, RecognisedEvent},
     trajectories::{self, ForecastEvent},
 };
@@ -11,6 +12,22 @@ use serde_json::{Value, json, to_value};
 pub const GOALS_FORMAT: &str = "phase-eval-goals/1";
 /// The value of the field `format` of results of Task 2.
 pub const TRAJECTORIES_FORMAT: &str = "phase-eval-trajectories/1";
+
+/// The value of the field `format` of results about beliefs.
+pub const BELIEFS_FORMAT: &str = "phase-eval-beliefs/1";
+
+/// Results about beliefs. `run` describes the run, with its `method` and `seed`.
+///
+/// # Errors
+/// If a part of them cannot be written as JSON.
+pub fn beliefs(run: &Value, summary: &BeliefSummary, events: &[BeliefEvent]) -> serde_json::Result<Value> {
+    Ok(json!({
+        "format": BELIEFS_FORMAT, "run": run, "method": run["method"], "seed": run["seed"],
+        "n_events": summary.n,
+        "all": to_value(&summary.all)?, "unseen": to_value(&summary.unseen)?, "moved": to_value(&summary.moved)?,
+        "events": to_value(events)?,
+    }))
+}
 
 /// Results of Task 1. `run` describes the run, with its `method` and `seed`.
 ///

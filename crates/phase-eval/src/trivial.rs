@@ -1,11 +1,17 @@
 //! Trivial baselines: the scores that are reached without perception.
 
-use phase_event::{Forecaster, MethodResult, ObservedEvent, Prediction, ProgressCallback, Recogniser};
+use phase_event::{
+    BeliefReader, Beliefs, Forecaster, MethodResult, ObservedEvent, Prediction, ProgressCallback, Recogniser,
+    SEEN, certain, others,
+};
 use phase_model::{
-    AgentId, Entity, Forecast, Goal, Judgement, LandmarkId, ObjectId, RelationProbabilities, Sign, Vec2,
+    AGENT_COUNT, AgentId, BodySet, Entity, Forecast, Goal, Judgement, LandmarkId, ObjectId,
+    RelationProbabilities, Sign, State, Vec2,
     arena::{self, STEP_SECONDS},
+    layout::room_of,
     random::{Purpose, stream},
 };
+use phase_perception::observed_set;
 use rand::RngExt;
 use serde_json::Value;
 
@@ -92,4 +98,51 @@ fn straight_on(observed: &ObservedEvent, steps: usize, share: f32) -> Forecast {
         (1..=steps).map(|step| after(step).clamp(arena::MIN, arena::MAX)).collect()
     };
     observed.entities().map(path).collect()
+}
+
+/// A rule for beliefs: an agent sees what is before its eyes, and believes everything else to be in the room
+/// where it was at some other time.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum BeliefRule {
+    /// When the agent could last see it, or at the start if it never could.
+    LastSeen,
+    /// Now.
+    TrueState,
+    /// At the start.
+    FirstState,
+}
+
+impl BeliefReader for BeliefRule {
+    fn read_beliefs(
+        &self,
+        observed: &ObservedEvent,
+        steps: &[usize],
+        _seed: u64,
+        _tick: ProgressCallback<'_>,
+    ) -> MethodResult<Vec<Beliefs>> {
+        let seen = seen_at(observed);
+        let rows = observed.rows();
+        let of = |step: usize, agent: AgentId, entity: Entity| {
+            let sees = |t: usize| seen[t][agent].contains(entity);
+            let then = match self {
+                _ if sees(step) => return certain(SEEN),
+                Self::LastSeen => (0..step).rev().find(|&t| sees(t)).unwrap_or(0),
+                Self::TrueState => step,
+                Self::FirstState => 0,
+            };
+            certain(room_of(rows[then][entity].position).index())
+        };
+        let objects = observed.object_sizes().len();
+        let beliefs = |&step: &usize| {
+            AgentId::ALL.map(|agent| others(agent, objects).map(|entity| of(step, agent, entity)).collect())
+        };
+        Ok(Some((steps.iter().map(beliefs).collect(), Value::Null)))
+    }
+}
+
+/// What each agent can see in each row.
+fn seen_at(observed: &ObservedEvent) -> Vec<[BodySet; AGENT_COUNT]> {
+    let physics = observed.physics([0.0; AGENT_COUNT]);
+    let states = observed.rows().iter().map(|&row| State::new(row));
+    states.map(|state| AgentId::ALL.map(|agent| observed_set(&physics, &state, agent))).collect()
 }

@@ -38,6 +38,7 @@
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 
+mod beliefs;
 mod error;
 mod event;
 mod line_formatter;
@@ -55,6 +56,7 @@ mod trajectory;
 mod warning;
 mod write;
 
+pub use beliefs::{BeliefReader, Beliefs, PLACES, SEEN, Whereabouts, certain, others, whereabouts};
 pub use error::{EventReadError, EventWriteError};
 pub use event::{Event, Step};
 pub use mean::mean_state;

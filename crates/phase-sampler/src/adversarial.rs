@@ -3,8 +3,13 @@
 use crate::draft::{
     self, SELF_SUFFICIENT, SceneDraft, agent, any_room, any_size, choose, hindering, object, object_of,
 };
-use phase_model::{Goal, Size, Strength};
-use rand::Rng;
+use phase_model::{Awareness, Goal, Sight, Size, Strength};
+use rand::{Rng, RngExt};
+use std::ops::RangeInclusive;
+
+/// Steps for which an agent waits that is not to see how the other moves the object: about as long as that
+/// takes.
+pub(crate) const WAITS: RangeInclusive<u16> = 30..=42;
 
 /// The victim wants itself or an object on a landmark.
 pub(crate) fn hinder(goals: [Goal; 2], random: &mut impl Rng) -> Option<SceneDraft> {
@@ -51,4 +56,12 @@ pub(crate) fn compete(goals: [Goal; 2], random: &mut impl Rng) -> Option<SceneDr
         agent(any_size(random), choose(&SELF_SUFFICIENT, random), goal, any_room(random), random)
     });
     SceneDraft::about(goals, agents, vec![object(any_size(random), room, random)])
+}
+
+/// As [`compete`], but the first waits, and knows of the object where it was at the start.
+pub(crate) fn seek(goals: [Goal; 2], random: &mut impl Rng) -> Option<SceneDraft> {
+    let mut draft = compete(goals, random)?;
+    let waits = random.random_range(WAITS);
+    draft.agents[0].awareness = Awareness { sees: Sight::Start, waits, ..Awareness::default() };
+    Some(draft)
 }

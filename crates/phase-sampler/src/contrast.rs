@@ -10,11 +10,13 @@ use crate::{
     recipe::{self, MAX_DRAWS},
     requirements::is_playable,
 };
-use phase_model::{AgentId, Attitude, EventKind, Goal, LandmarkId, Layout, ObjectId, Relation, Scene};
+use phase_model::{
+    AgentId, Attitude, Awareness, EventKind, Goal, LandmarkId, Layout, ObjectId, Relation, Scene, Sight,
+};
 use rand::{Rng, RngExt};
 use serde::{Deserialize, Serialize};
 
-/// The stance of an agent towards the other.
+/// The stance of an agent towards the other, or its knowledge of what the other does.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Stance {
@@ -28,6 +30,11 @@ pub enum Stance {
     Same,
     /// It wants the object of the other on another landmark, α = 0: the two compete.
     Rival,
+    /// As `Rival`, but it first waits where it does not see the object, and knows where that was at the start:
+    /// once the other has moved it, its belief is false.
+    Unaware,
+    /// As `Unaware`, but it is told of every move: its belief is true.
+    Told,
 }
 
 /// The subject of the goal of the agent that does not change between the scenes.
@@ -66,7 +73,8 @@ pub struct Contrast {
 
 impl Stance {
     /// All stances.
-    pub const ALL: [Self; 5] = [Self::Help, Self::Hinder, Self::Indifferent, Self::Same, Self::Rival];
+    pub const ALL: [Self; 7] =
+        [Self::Help, Self::Hinder, Self::Indifferent, Self::Same, Self::Rival, Self::Unaware, Self::Told];
 
     /// The name used in files.
     #[must_use]
@@ -77,6 +85,8 @@ impl Stance {
             Self::Indifferent => "indifferent",
             Self::Same => "same",
             Self::Rival => "rival",
+            Self::Unaware => "unaware",
+            Self::Told => "told",
         }
     }
 
@@ -91,6 +101,7 @@ impl Stance {
             (Self::Indifferent, About::Place) => Variant::Places,
             (Self::Same, _) => Variant::Carry,
             (Self::Rival, _) => Variant::Compete,
+            (Self::Unaware | Self::Told, _) => Variant::Seek,
         }
     }
 
@@ -99,8 +110,19 @@ impl Stance {
     pub const fn relation(self) -> Relation {
         match self {
             Self::Help | Self::Same => Relation::Friendly,
-            Self::Hinder | Self::Rival => Relation::Adversarial,
+            Self::Hinder | Self::Rival | Self::Unaware | Self::Told => Relation::Adversarial,
             Self::Indifferent => Relation::Neutral,
+        }
+    }
+
+    /// Of which objects the agent knows the place, if the stance is about this knowledge. Scenes of such
+    /// stances differ in it alone.
+    #[must_use]
+    pub const fn sight(self) -> Option<Sight> {
+        match self {
+            Self::Unaware => Some(Sight::Start),
+            Self::Told => Some(Sight::Objects),
+            _ => None,
         }
     }
 
@@ -116,11 +138,13 @@ impl Stance {
         match (self, goal) {
             (Self::Help, _) => (goal, Attitude::Help),
             (Self::Hinder, _) => (goal.negated(), Attitude::Hinder),
-            (Self::Rival, Goal::ObjectOnLandmark { object, .. }) => {
+            (Self::Rival | Self::Unaware | Self::Told, Goal::ObjectOnLandmark { object, .. }) => {
                 (object_on(object, elsewhere), Attitude::Neutral)
             }
             (Self::Same, _) => (goal, Attitude::Neutral),
-            (Self::Indifferent | Self::Rival, _) => (agent_on(AgentId::ZERO, elsewhere), Attitude::Neutral),
+            (Self::Indifferent | Self::Rival | Self::Unaware | Self::Told, _) => {
+                (agent_on(AgentId::ZERO, elsewhere), Attitude::Neutral)
+            }
         }
     }
 }
@@ -136,7 +160,9 @@ impl Contrast {
         if request.layouts.is_empty() || !request.stances.iter().all(|stance| stance.suits(request.about)) {
             return Err(SampleError(variant));
         }
-        for _ in 0..MAX_DRAWS {
+        // Few draws have places that hide how an object is moved.
+        let draws = if variant == Variant::Seek { 100 * MAX_DRAWS } else { MAX_DRAWS };
+        for _ in 0..draws {
             let Some(scenes) = propose(request, random) else { continue };
             let swapped = random.random_bool(0.5);
             return Ok(Self {
@@ -165,7 +191,17 @@ fn propose(request: &ContrastRequest<'_>, random: &mut impl Rng) -> Option<Vec<S
     // The bodies are those of hindering, whose requirements are the fewest.
     let draft = adversarial::hinder([goal.negated(), goal], random)?;
     let bodies = draft.into_scene(EventKind::Hindering, layout, (Objects::Two, request.starts), random);
-    request.stances.iter().map(|&stance| of_stance(&bodies, stance, request.about, elsewhere)).collect()
+    let of_beliefs = request.stances.iter().any(|stance| stance.sight().is_some());
+    let waits = if of_beliefs { random.random_range(adversarial::WAITS) } else { 0 };
+    let mut scenes = Vec::with_capacity(request.stances.len());
+    for &stance in request.stances {
+        let mut scene = of_stance(&bodies, stance, request.about, elsewhere)?;
+        if let Some(sees) = stance.sight() {
+            scene.agents[0].awareness = Awareness { sees, waits, ..Awareness::default() };
+        }
+        scenes.push(scene);
+    }
+    Some(scenes)
 }
 
 /// The scene with a stance of agent 0, if that is possible.

@@ -29,7 +29,7 @@ pub struct Request<'a> {
 /// No scene of the variant was found.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Error)]
 #[error(
-    "no {} scene ({}) was found in {MAX_DRAWS} draws; its layouts may not allow any",
+    "no {} scene ({}) was found in at least {MAX_DRAWS} draws; its layouts may not allow any",
     .0.kind().name(),
     .0.name()
 )]
@@ -103,6 +103,7 @@ fn draft(variant: Variant, layout: Layout, goals: [Goal; 2], random: &mut impl R
         Variant::Evade | Variant::Pester => adversarial::hinder_touch(goals, random),
         Variant::Chase => adversarial::chase(goals, random),
         Variant::Compete => adversarial::compete(goals, random),
+        Variant::Seek => adversarial::seek(goals, random),
         Variant::Places | Variant::Mixed | Variant::Objects | Variant::Cross => {
             neutral::independent(goals, random)
         }

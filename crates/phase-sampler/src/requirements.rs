@@ -7,14 +7,20 @@ use crate::{
     feasibility,
 };
 use phase_model::{
-    AgentId, Entity, EventKind, Goal, LandmarkId, ObjectId, RoomId, Scene, Sign, Strength, layout::room_of,
+    AgentId, AgentSpec, Body, Entity, EventKind, Goal, LandmarkId, ObjectId, RoomId, Scene, Sign, Strength,
+    Vec2, arena::LANDMARKS, layout::room_of,
 };
 use phase_navigation::{IMPASSABLE_COST, Map};
+use phase_perception::sees;
 
 /// Minimum ratio of a goal's cost without the helper to its cost with the helper.
 const MIN_COST_RATIO: f32 = 1.5;
 /// Limit of the cost of a goal that is to be reached early enough to be undone (u).
 const MAX_UNDONE_COST: f32 = 35.0;
+/// Limit of the cost of a goal that is to be reached before another acts (u).
+const MAX_MOVED_COST: f32 = 50.0;
+/// The field of view of an agent that is to see nothing is that much wider (rad): bodies stray from the way.
+const SPARE_ANGLE: f32 = 0.5;
 /// Maximum distance from an object of an agent that is to come to it while there is still something to be
 /// seen (u).
 const MAX_ARRIVAL: f32 = 14.0;
@@ -68,7 +74,8 @@ fn are_matched(variant: Variant, scene: &Scene) -> bool {
 pub(crate) fn is_playable(variant: Variant, scene: &Scene, on_stage: bool) -> bool {
     // Cheap tests first.
     are_matched(variant, scene)
-        && ((variant.is_first_edition() && !on_stage) || is_placed(variant, scene))
+        && ((!on_stage && (variant.is_first_edition() || variant == Variant::Seek))
+            || is_placed(variant, scene))
         && is_unsolved(scene)
         && scene.validate_without_overlap().is_ok()
         && is_feasible(variant, scene)
@@ -107,6 +114,10 @@ fn is_feasible(variant: Variant, scene: &Scene) -> bool {
             alone < limit && can_interfere(scene, second)
         }
         EventKind::Chasing => feasibility::alone(scene, AgentId::ZERO, first),
+        EventKind::Competing if variant == Variant::Seek => {
+            feasibility::alone(scene, AgentId::ZERO, first)
+                && feasibility::cost(scene, second, [false, true]) < MAX_MOVED_COST
+        }
         EventKind::Competing | EventKind::Independent => {
             feasibility::alone(scene, AgentId::ZERO, first) && feasibility::alone(scene, AgentId::ONE, second)
         }
@@ -127,8 +138,8 @@ fn can_interfere(scene: &Scene, goal: Goal) -> bool {
     }
 }
 
-/// Whether the bodies are where the variant needs them. Nothing is required of the first edition's variants
-/// beyond their drafts, except where they are cast on a stage that was drawn for another one.
+/// Whether the bodies are where the variant needs them. Nothing is required of the first edition's variants, and of
+/// seeking, beyond their drafts, except where they are cast on a stage that was drawn for another one.
 fn is_placed(variant: Variant, scene: &Scene) -> bool {
     let [first, goal] = scene.goals();
     let [room, other_room] = [0, 1].map(|role: usize| room_of(scene.agents[role].start.position));
@@ -164,12 +175,58 @@ fn is_placed(variant: Variant, scene: &Scene) -> bool {
             away && carried_farther && near <= MAX_BY && MAX_BY + MIN_HEAD_START <= far && place == room
         }
         Variant::Undo => beside && far < near && near <= MAX_ARRIVAL,
+        Variant::Seek => {
+            let start = scene.objects[object.index()].start.position;
+            let landmark = goal.landmark().map(|landmark| LANDMARKS[landmark]);
+            let found = sees(&scene.physics(), &scene.initial_state(), AgentId::ONE, goal.subject());
+            beside
+                && found
+                && far <= MAX_BY
+                && landmark.is_some_and(|to| is_moved_unseen(scene, object, start, to))
+        }
         Variant::Compete => {
             let rooms = [first, goal].map(|goal| goal.landmark().map(LandmarkId::room));
             !rooms.contains(&Some(place)) && near.max(far) <= MAX_ARRIVAL
         }
         _ => true,
     }
+}
+
+/// Whether agent 0, as long as it stays, sees nothing of how agent 1 carries an object from a place to another.
+/// It would see it in neither place if it turned, and goes to them through different doors.
+fn is_moved_unseen(scene: &Scene, object: ObjectId, from: Vec2, to: Vec2) -> bool {
+    let physics = scene.physics();
+    let map = Map::new(scene.layout);
+    let [seeker, mover] = [0, 1].map(|role: usize| physics.agents[role].width());
+    let AgentSpec { start: Body { position: here, angle, .. }, .. } = scene.agents[0];
+    let first_door = |to: Vec2| {
+        let way = map.route(here, to, seeker, map.gaps(), IMPASSABLE_COST)?;
+        way.doors().first().map(|&(slot, _)| slot)
+    };
+    let doors = [from, to].map(first_door);
+    if doors.contains(&None) || doors[0] == doors[1] {
+        return false;
+    }
+    let sees_at = |place: Vec2, angle: f32| {
+        let mut state = scene.initial_state();
+        state.body_mut(Entity::Object(object)).position = place;
+        state.body_mut(Entity::Agent(AgentId::ZERO)).angle = angle;
+        sees(&physics, &state, AgentId::ZERO, Entity::Object(object))
+    };
+    let turned_to = |place: Vec2| libm::atan2f(here.x - place.x, place.y - here.y);
+    if [from, to].into_iter().any(|place| sees_at(place, turned_to(place))) {
+        return false;
+    }
+    let width = mover.max(2.0 * physics.object_radii[object.index()]);
+    let Some(way) = map.route(from, to, width, map.gaps(), IMPASSABLE_COST) else { return false };
+    let mut place = from;
+    way.doors().iter().map(|&(_, crossing)| crossing).chain([to]).all(|end| {
+        let start = core::mem::replace(&mut place, end);
+        let parts = start.distance(end).ceil().max(1.0);
+        let places = (0..=parts as usize).map(|part| start.lerp(end, part as f32 / parts));
+        let headings = [angle - SPARE_ANGLE, angle + SPARE_ANGLE];
+        !places.into_iter().any(|place| headings.iter().any(|&heading| sees_at(place, heading)))
+    })
 }
 
 /// Whether agent 1 cannot come to the object that it wants, but stands by the way on which agent 0 brings it.
@@ -180,7 +237,7 @@ fn is_handed_over_on_the_way(scene: &Scene, object: ObjectId, goal: Goal) -> boo
     let state = scene.initial_state();
     let Some(landmark) = goal.landmark() else { return false };
     let from = state.position(Entity::Object(object));
-    let to = phase_model::arena::LANDMARKS[landmark];
+    let to = LANDMARKS[landmark];
     let [helper, helpee] = [0, 1].map(|role: usize| physics.agents[role].width());
     let waits = scene.agents[1].start.position;
     if map.route_cost(waits, from, helpee, map.gaps(), IMPASSABLE_COST) < IMPASSABLE_COST {
@@ -204,7 +261,7 @@ fn obstructs(scene: &Scene, goal: Goal) -> bool {
     let [blocker, blocked] = scene.agents.map(|agent| agent.start.position);
     let width = physics.agents[1].width();
     let Some(landmark) = goal.landmark() else { return false };
-    let to = phase_model::arena::LANDMARKS[landmark];
+    let to = LANDMARKS[landmark];
     let Some(route) = map.route(blocked, to, width, map.gaps(), IMPASSABLE_COST) else { return false };
     let mut gaps = *map.gaps();
     let radius = physics.agents[0].radius;

@@ -55,11 +55,13 @@ pub enum Variant {
     Cross,
     /// Helping in whatever manner: the other's object gets to its landmark sooner.
     Assist,
+    /// Competing: one agent waits while the other moves the object out of its sight, then looks for it.
+    Seek,
 }
 
 impl Variant {
     /// All variants: those of the first edition, then those of the second, each by kind.
-    pub const ALL: [Self; 23] = [
+    pub const ALL: [Self; 24] = [
         Self::Lift,
         Self::Blocked,
         Self::Move,
@@ -83,6 +85,7 @@ impl Variant {
         Self::Undo,
         Self::Cross,
         Self::Assist,
+        Self::Seek,
     ];
 
     /// The kind of event it belongs to.
@@ -106,7 +109,7 @@ impl Variant {
             | Self::Hide
             | Self::Undo => EventKind::Hindering,
             Self::Chase => EventKind::Chasing,
-            Self::Compete => EventKind::Competing,
+            Self::Compete | Self::Seek => EventKind::Competing,
             Self::Carry => EventKind::Collaborating,
             Self::Places | Self::Mixed | Self::Objects | Self::Cross => EventKind::Independent,
         }
@@ -149,6 +152,7 @@ impl Variant {
             Self::Undo => "undo",
             Self::Cross => "cross",
             Self::Assist => "assist",
+            Self::Seek => "seek",
         }
     }
 
@@ -197,7 +201,7 @@ impl Variant {
             | Self::Undo => 8,
             Self::Move | Self::HinderPlace | Self::MakeWay | Self::Block => 4,
             Self::Evade | Self::Pester | Self::Chase => 1,
-            Self::Compete | Self::Mixed => 24,
+            Self::Compete | Self::Seek | Self::Mixed => 24,
             Self::Places | Self::Objects | Self::Cross => 12,
         }
     }
@@ -225,7 +229,7 @@ impl Variant {
             Self::Pester | Self::Chase => {
                 [touch(AgentId::ZERO, Sign::Positive), touch(AgentId::ZERO, Sign::Negative)]
             }
-            Self::Compete => {
+            Self::Compete | Self::Seek => {
                 let second = (first + 1 + (round / 2) % 3) % at.len();
                 [object_on(object, at[first]), object_on(object, at[second])]
             }

@@ -1,7 +1,7 @@
 //! Scenes that differ in one social variable.
 
 use phase_model::{
-    AgentSpec, Attitude, Layout, Scene,
+    AgentSpec, Attitude, Entity, Layout, Scene, Sight,
     random::{Purpose, stream},
 };
 use phase_sampler::{About, Contrast, ContrastRequest, Stance, Starts};
@@ -27,7 +27,10 @@ fn sample(
 fn only_the_stance_of_one_agent_differs() {
     let layouts: Vec<Layout> = Layout::all_used().collect();
     let mut changed = BTreeSet::new();
-    let cases = [(&Stance::ALL[..], About::Object), (&[Stance::Indifferent, Stance::Hinder], About::Place)];
+    let social = Stance::ALL.map(|stance| (stance, stance.sight()));
+    let social: Vec<Stance> =
+        social.into_iter().filter(|(_, sight)| sight.is_none()).map(|(stance, _)| stance).collect();
+    let cases = [(&social[..], About::Object), (&[Stance::Indifferent, Stance::Hinder], About::Place)];
     for (stances, about) in cases {
         for goal_index in 0..8 {
             let contrast = sample(stances, about, goal_index, &layouts, goal_index as u64).unwrap();
@@ -61,4 +64,44 @@ fn a_stance_that_does_not_suit_the_goal_is_an_error() {
     let layouts: Vec<Layout> = Layout::all_used().collect();
     assert_eq!(sample(&[Stance::Hinder, Stance::Rival], About::Place, 0, &layouts, 1), None);
     assert_eq!(sample(&[Stance::Help, Stance::Hinder], About::Object, 0, &[], 1), None);
+}
+
+/// The agent that waits sees the object neither where it is nor from where the other would bring it, however
+/// it turns; its twin differs in nothing but what it is told.
+#[test]
+fn beliefs_differ_in_what_the_agent_is_told() {
+    let layouts: Vec<Layout> = Layout::all_used().collect();
+    for goal_index in 0..8 {
+        let stances = [Stance::Unaware, Stance::Told];
+        let contrast = sample(&stances, About::Object, goal_index, &layouts, goal_index as u64).unwrap();
+        let me = contrast.changed;
+        let [unaware, told] = [0, 1].map(|k: usize| contrast.scenes[k].clone());
+        assert_eq!(
+            (unaware.agents[me].awareness.sees, told.agents[me].awareness.sees),
+            (Sight::Start, Sight::Objects)
+        );
+        assert!(unaware.agents[me].awareness.waits > 0);
+        let mut same = told;
+        same.agents[me].awareness.sees = Sight::Start;
+        assert_eq!(unaware, same);
+        let object = unaware.agents[me].goal.subject();
+        assert_eq!(object, unaware.agents[me.other()].goal.subject());
+        let mut state = unaware.initial_state();
+        let landmark = phase_model::arena::LANDMARKS[unaware.agents[me.other()].goal.landmark().unwrap()];
+        for place in [state.position(object), landmark] {
+            for turn in 0..64 {
+                state.body_mut(object).position = place;
+                state.body_mut(Entity::Agent(me)).angle = turn as f32 * core::f32::consts::TAU / 64.0;
+                let physics = unaware.physics();
+                let ahead = phase_perception::sees(&physics, &state, me, object);
+                // Seen only past another body that hides it from straight ahead.
+                assert!(
+                    !ahead
+                        || !phase_perception::field_of_view(&physics, &state, me)
+                            .contains(phase_perception::Cell::at(place).unwrap()),
+                    "turn {turn}"
+                );
+            }
+        }
+    }
 }

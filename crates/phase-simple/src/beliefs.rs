@@ -3,9 +3,9 @@
 use crate::simulation_run::Outlook;
 use phase_belief::overwrite;
 use phase_event::ObservedEvent;
-use phase_minds::{BeliefState, MindParameters, belief, observe};
+use phase_minds::{BeliefState, MindParameters, belief, belief_in, first_observation, observe};
 use phase_model::{
-    AGENT_COUNT, Action, AgentId, State,
+    AGENT_COUNT, Action, AgentId, Scene, State,
     arena::SUBSTEPS,
     random::{self, Pcg64Mcg, Purpose},
 };
@@ -34,6 +34,23 @@ impl EstimatedBeliefs {
         let mut random = random::stream(seed, Purpose::Belief, agent.number().into());
         let seen = observe(minds.kind(), &physics, &states[0], agent);
         let first = belief(observed.layout(), &physics, minds, &seen, Some(&states[0]), &mut random);
+        let mut beliefs = Self { steps: vec![(first, random)] };
+        beliefs.follow(states, 1);
+        beliefs
+    }
+
+    /// The beliefs of an agent of a scene, with the senses that the scene gives it; otherwise as
+    /// [`new`](Self::new).
+    pub(crate) fn in_scene(
+        scene: &Scene,
+        states: &[State],
+        agent: AgentId,
+        minds: &MindParameters,
+        seed: u64,
+    ) -> Self {
+        let mut random = random::stream(seed, Purpose::Belief, agent.number().into());
+        let seen = first_observation(scene, minds.kind(), &states[0], agent);
+        let first = belief_in(scene, minds, &seen, Some(&states[0]), &mut random);
         let mut beliefs = Self { steps: vec![(first, random)] };
         beliefs.follow(states, 1);
         beliefs

@@ -244,12 +244,28 @@ impl PreparedEvent {
         agent: AgentId,
         step: usize,
     ) -> Result<(Action, Thought), PomcpError> {
+        self.decide_believing(run, agent, step, &self.beliefs[agent])
+    }
+
+    /// Lets an agent decide as [`decide`](Self::decide) does, with other beliefs.
+    pub(crate) fn decide_believing(
+        &self,
+        run: &mut SimulationRun,
+        agent: AgentId,
+        step: usize,
+        beliefs: &EstimatedBeliefs,
+    ) -> Result<(Action, Thought), PomcpError> {
         self.resynchronise(run, step);
         let seed = random::derive_seed(self.seed, Purpose::Search, step as u64);
         run.random = AgentId::ALL.map(|agent| random::stream(seed, Purpose::Search, agent.number().into()));
         self.lead(run, agent, step)?;
-        let outlook = self.beliefs[agent].outlook(step, &run.state);
+        let outlook = beliefs.outlook(step, &run.state);
         run.decide(agent, &outlook)
+    }
+
+    /// The seed of its random streams.
+    pub(crate) const fn seed(&self) -> u64 {
+        self.seed
     }
 
     /// Lets the first agent decide where the second one's random numbers follow from its own.

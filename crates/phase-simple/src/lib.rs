@@ -64,6 +64,7 @@ pub mod intent_network;
 pub mod inverse_dynamics;
 mod inverse_planning;
 mod kinds;
+mod knowledge;
 mod methods;
 pub mod metropolis;
 mod models;

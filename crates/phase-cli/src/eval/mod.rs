@@ -48,6 +48,8 @@ pub fn run(arguments: &Eval, context: &Context) -> Result<(), CliError> {
             }
             None => announce(evaluation.goals(&answers, context)?, arguments, &others),
         },
+        Eval::Beliefs(_) if !others.is_empty() => Err(CliError::Usage("--compare: not of beliefs".into())),
+        Eval::Beliefs(_) => announce(evaluation.beliefs(&answers, context)?, arguments, &others),
         Eval::Trajectories(_) => announce(evaluation.trajectories(&answers, context)?, arguments, &others),
     }
 }

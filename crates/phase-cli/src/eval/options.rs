@@ -13,6 +13,8 @@ pub enum Eval {
     Goals(EvalGoals),
     /// Task 2 of the paper: errors of predicted trajectories, 20 steps after the first 20
     Trajectories(EvalTrajectories),
+    /// Where agents believe entities to be, in simulated events
+    Beliefs(EvalBeliefs),
 }
 
 /// Options of `eval goals`.
@@ -53,7 +55,20 @@ pub struct EvalTrajectories {
     pub common: Common,
 }
 
-/// Options of both.
+/// Options of `eval beliefs`.
+#[derive(Args, Debug)]
+pub struct EvalBeliefs {
+    /// The method to measure: simple, or the room where the agent could last see an entity, where it is now, or
+    /// where it was at the start
+    #[arg(long, value_name = "METHOD", value_parser = PossibleValuesParser::new(methods::BELIEF_READERS),
+          required_unless_present = "predictions")]
+    pub method: Option<String>,
+    /// Events and output.
+    #[command(flatten)]
+    pub common: Common,
+}
+
+/// Options of all tasks.
 #[derive(Args, Debug)]
 pub struct Common {
     /// The weights of a neural network (safetensors, as `train` writes them) [default: those that come with
@@ -117,14 +132,16 @@ impl Eval {
         match self {
             Self::Goals(_) => "goals",
             Self::Trajectories(_) => "trajectories",
+            Self::Beliefs(_) => "beliefs",
         }
     }
 
-    /// The options of both tasks.
+    /// The options of all tasks.
     pub(super) const fn common(&self) -> &Common {
         match self {
             Self::Goals(options) => &options.common,
             Self::Trajectories(options) => &options.common,
+            Self::Beliefs(options) => &options.common,
         }
     }
 }
@@ -134,7 +151,7 @@ impl From<&Eval> for Evaluation {
         let common = options.common();
         let (watched, ratings) = match options {
             Eval::Goals(options) => (options.watched.clone(), options.ratings.clone()),
-            Eval::Trajectories(_) => (Vec::new(), None),
+            Eval::Trajectories(_) | Eval::Beliefs(_) => (Vec::new(), None),
         };
         Self {
             events: common.events.clone(),
@@ -156,6 +173,7 @@ impl From<&Eval> for Answers {
         let method = match options {
             Eval::Goals(options) => &options.method,
             Eval::Trajectories(options) => &options.method,
+            Eval::Beliefs(options) => &options.method,
         };
         let common = options.common();
         match &common.predictions {

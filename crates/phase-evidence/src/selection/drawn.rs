@@ -8,9 +8,13 @@ use super::{
     common::{object_of, pursued, reached, require},
     kinds,
 };
-use crate::{Clarity, GoalOutcome, Manner, Track, contact, holding, manner, outcome, pursuit::Pursuit, rest};
+use crate::{
+    Clarity, GoalOutcome, Manner, Track, contact, holding, manner, outcome, pursuit::Pursuit, rest, search,
+};
 use core::ops::Range;
-use phase_model::{AgentId, Entity, EventKind, Goal, ObjectId, Relation, Scene, Sign, State};
+use phase_model::{
+    AgentId, AgentSpec, Entity, EventKind, Goal, ObjectId, Relation, Scene, Sight, Sign, State,
+};
 
 /// Least approach of an agent to its goal (u).
 const MIN_PROGRESS: f32 = 3.0;
@@ -29,6 +33,8 @@ const MIN_ATTEMPT: usize = 8;
 const MAX_SERVICE: usize = 6;
 /// Approach in a step that is seen as one (u).
 const SEEN_APPROACH: f32 = 0.05;
+/// Least approach of an agent to where it looks for an object, before it sees that (u).
+const MIN_SEARCH: f32 = 2.0;
 /// Steps of which a chase has pursuit in the last part: the last fourth.
 const LASTING_PARTS: usize = 4;
 
@@ -43,7 +49,13 @@ pub(super) fn judge(
         EventKind::Helping => Some(helping(scene, track)?),
         EventKind::Hindering => Some(hindering(scene, track)?),
         EventKind::Chasing => Some(chasing(scene, track)?),
-        EventKind::Competing => Some(kinds::competing(scene, track)?),
+        EventKind::Competing => match seeker(scene) {
+            Some(seeker) => {
+                searching(scene, track, seeker)?;
+                None
+            }
+            None => Some(kinds::competing(scene, track)?),
+        },
         EventKind::Collaborating => {
             collaborating(scene, track)?;
             None
@@ -167,6 +179,37 @@ fn serves(track: &Track, hinderer: AgentId, goal: Goal) -> bool {
     let closer = gains.iter().filter(|&&gain| gain > SEEN_APPROACH).count();
     let farther = gains.iter().filter(|&&gain| gain < -SEEN_APPROACH).count();
     closer > MAX_SERVICE && closer > farther
+}
+
+/// The agent of a scene that waits while the other moves the object that it wants.
+fn seeker(scene: &Scene) -> Option<AgentId> {
+    AgentId::ALL.into_iter().find(|&agent| {
+        scene.agents[agent].awareness.sees != Sight::Own && object_of(scene.agents[agent].goal).is_some()
+    })
+}
+
+/// While an agent waits, the other moves the object that both want, unseen by it. Then it goes where it
+/// believes the object to be: to the old place unless it was told of the move.
+fn searching(scene: &Scene, track: &Track, seeker: AgentId) -> Result<(), RejectionReason> {
+    let AgentSpec { goal, awareness, .. } = scene.agents[seeker];
+    let (object, waits) = (goal.subject(), usize::from(awareness.waits));
+    pursued(scene, track, seeker.other())?;
+    let missed = search::was_moved(track, object, waits) && search::missed(track, seeker, object, waits);
+    require(missed, RejectionReason::Unmoved)?;
+    let is_false = awareness.sees == Sight::Start;
+    let look = search::first_look(track, seeker, object, waits);
+    let shown = look.is_some_and(|it| it.at_old_place == is_false && it.approach >= MIN_SEARCH);
+    require(shown, RejectionReason::Unsearched)
+}
+
+/// Whether the agent of a scene that waits is about to act, and the object was not moved unseen.
+pub(super) fn is_moved_in_vain(scene: &Scene, track: &Track) -> bool {
+    seeker(scene).is_some_and(|seeker| {
+        let AgentSpec { goal, awareness, .. } = scene.agents[seeker];
+        let (object, waits) = (goal.subject(), usize::from(awareness.waits));
+        track.steps() == waits
+            && !(search::was_moved(track, object, waits) && search::missed(track, seeker, object, waits))
+    })
 }
 
 fn chasing(scene: &Scene, track: &Track) -> Result<Counterfactual, RejectionReason> {

@@ -58,13 +58,18 @@ pub enum RejectionReason {
     NoProgress,
     /// The manner of helping, hindering or meeting that the variant is about was not seen.
     OtherManner,
+    /// When the agent that waited acts, the object is in the room where it was at the start, or the agent has
+    /// seen it or its place meanwhile.
+    Unmoved,
+    /// That agent did not go where it believes the object to be, or did not look there first.
+    Unsearched,
     /// Without the agent that is to make a difference the result would have been the same.
     NoEffect,
 }
 
 impl RejectionReason {
     /// All reasons, in the order in which they are checked.
-    pub const ALL: [Self; 18] = [
+    pub const ALL: [Self; 20] = [
         Self::TooShort,
         Self::TooLong,
         Self::Restless,
@@ -82,6 +87,8 @@ impl RejectionReason {
         Self::Misleading,
         Self::NoProgress,
         Self::OtherManner,
+        Self::Unmoved,
+        Self::Unsearched,
         Self::NoEffect,
     ];
 
@@ -106,6 +113,8 @@ impl RejectionReason {
             Self::Misleading => "misleading",
             Self::NoProgress => "no-progress",
             Self::OtherManner => "other-manner",
+            Self::Unmoved => "unmoved",
+            Self::Unsearched => "unsearched",
             Self::NoEffect => "no-effect",
         }
     }
@@ -210,9 +219,11 @@ pub fn certain_rejection(
     lengths: RangeInclusive<usize>,
     ending: Ending,
 ) -> Option<RejectionReason> {
-    let lost = matches!(ending, Ending::Drawn(_))
-        && drawn::is_lifeless_however_it_goes_on(scene, track, *lengths.end());
-    lost.then_some(RejectionReason::Lifeless)
+    let Ending::Drawn(_) = ending else { return None };
+    if drawn::is_lifeless_however_it_goes_on(scene, track, *lengths.end()) {
+        return Some(RejectionReason::Lifeless);
+    }
+    drawn::is_moved_in_vain(scene, track).then_some(RejectionReason::Unmoved)
 }
 
 /// Distance of the goal's subject from the goal at the end (u); infinite for tracks without states.

@@ -14,6 +14,7 @@ mod outcome;
 mod parting;
 mod pursuit;
 mod rest;
+mod search;
 mod selection;
 mod support;
 mod way;

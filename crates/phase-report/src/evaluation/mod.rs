@@ -1,11 +1,13 @@
 //! Reports of evaluations: one method on one task, and the benchmark of many.
 
+mod beliefs;
 mod benchmark;
 mod goals;
 mod leaderboard;
 mod questions;
 mod trajectories;
 
+pub use beliefs::beliefs;
 pub use benchmark::{Page, benchmark, figures, overview, page, to_lines};
 pub use goals::goals;
 pub use leaderboard::{LEADERBOARD_FORMAT, Measures, Score, Scores, Source, leaderboard};

@@ -2,8 +2,8 @@
 
 use super::networks;
 use crate::{effort::MindChoice, error::RunError};
-use phase_eval::trivial::{Chance, ConstantVelocity, Stationary};
-use phase_event::{Forecaster, Recogniser};
+use phase_eval::trivial::{BeliefRule, Chance, ConstantVelocity, Stationary};
+use phase_event::{BeliefReader, Forecaster, Recogniser};
 use phase_files::{
     checksum::{hexadecimal, sha256},
     json,
@@ -17,6 +17,9 @@ const OTHER_RECOGNISERS: [&str; 6] =
 /// Names of the methods for trajectories.
 pub const FORECASTERS: [&str; 6] =
     ["simple", "simple-published", "social-lstm", "stgat", "constant-velocity", "still"];
+
+/// Names of the methods for beliefs.
+pub const BELIEF_READERS: [&str; 4] = ["simple", "last-seen", "true-state", "first-state"];
 
 /// Names of the methods for goals and relations.
 #[must_use]
@@ -66,6 +69,25 @@ pub fn forecaster(
     match name {
         "constant-velocity" => Ok(Box::new(ConstantVelocity)),
         "still" => Ok(Box::new(Stationary)),
+        _ => Ok(Box::new(simple.ok_or_else(|| no_such(name))?)),
+    }
+}
+
+/// A method for beliefs; see [`recogniser`]. None has weights.
+///
+/// # Errors
+/// If there is none of this name in this build, or weights are given.
+pub fn belief_reader(
+    name: &str,
+    weights: Option<&Path>,
+    minds: &MindChoice,
+) -> Result<Box<dyn BeliefReader>, RunError> {
+    let simple = simple(name, minds)?;
+    no_weights(name, weights)?;
+    match name {
+        "last-seen" => Ok(Box::new(BeliefRule::LastSeen)),
+        "true-state" => Ok(Box::new(BeliefRule::TrueState)),
+        "first-state" => Ok(Box::new(BeliefRule::FirstState)),
         _ => Ok(Box::new(simple.ok_or_else(|| no_such(name))?)),
     }
 }

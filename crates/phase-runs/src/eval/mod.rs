@@ -2,9 +2,10 @@
 //!
 //! [`methods`] knows the methods by name, `task` asks one of them event by event and stores its answers, so
 //! that a run can be interrupted; `shards` divides it among machines; `goals` and `trajectories` are the two
-//! tasks, `answers` has also those of an external method.
+//! tasks of the paper, `beliefs` is about what agents believe, `answers` has also those of an external method.
 
 pub(crate) mod answers;
+mod beliefs;
 pub mod compare;
 pub(crate) mod goals;
 pub(crate) mod input;
@@ -21,10 +22,11 @@ pub use task::{Evaluated, REPORT_FILE};
 pub use unlabelled::Answered;
 
 use crate::{effort::MindChoice, error::RunError, listener::Listener};
+use beliefs::BeliefTask;
 use goals::Goals;
 use input::Input;
 use phase_dataset::splits::Split;
-use phase_eval::{goals::RecognisedEvent, trajectories::ForecastEvent};
+use phase_eval::{beliefs::BeliefEvent, goals::RecognisedEvent, trajectories::ForecastEvent};
 use ratings::Ratings;
 use std::path::PathBuf;
 use trajectories::Trajectories;
@@ -132,5 +134,19 @@ impl Evaluation {
         let input = Input::open(self, listener)?;
         let trajectories = Trajectories::of(answers, &input, listener)?;
         task::evaluate(&trajectories, &input, self, listener)
+    }
+
+    /// Evaluates where a method says that agents believe entities to be, in simulated events; `None` if that
+    /// is only a part, which is now done.
+    ///
+    /// # Errors
+    /// Those of [`Evaluation::goals`], and for a file of predictions or an event that was not simulated.
+    pub fn beliefs(
+        &self,
+        answers: &Answers,
+        listener: &dyn Listener,
+    ) -> Result<Option<Evaluated<BeliefEvent>>, RunError> {
+        let input = Input::open(self, listener)?;
+        task::evaluate(&BeliefTask::of(answers)?, &input, self, listener)
     }
 }

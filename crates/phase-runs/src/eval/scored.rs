@@ -2,8 +2,9 @@
 
 use phase_document::document::Document;
 use phase_eval::{
+    beliefs::{BeliefEvent, BeliefSummary},
     goals::{ErrorBreakdown, RecognisedEvent, RecognitionSummary},
-    results::{self, GOALS_FORMAT, TRAJECTORIES_FORMAT},
+    results::{self, BELIEFS_FORMAT, GOALS_FORMAT, TRAJECTORIES_FORMAT},
     trajectories::{ForecastEvent, ForecastSummary},
 };
 use phase_report::evaluation::{self, Subject};
@@ -95,5 +96,31 @@ impl ScoredEvent for ForecastEvent {
 
     fn report(subject: Subject<'_>, summary: &Self::Summary) -> Document {
         evaluation::trajectories(subject, summary)
+    }
+}
+
+impl ScoredEvent for BeliefEvent {
+    type Summary = BeliefSummary;
+
+    const FORMAT: &'static str = BELIEFS_FORMAT;
+
+    fn id(&self) -> &str {
+        &self.id
+    }
+
+    fn cpu_seconds(&mut self) -> &mut Option<f64> {
+        &mut self.cpu_seconds
+    }
+
+    fn sum_up(events: &[Self], seed: u64) -> Option<Self::Summary> {
+        BeliefSummary::of(events, seed)
+    }
+
+    fn results(run: &Value, summary: &Self::Summary, events: &[Self]) -> serde_json::Result<Value> {
+        results::beliefs(run, summary, events)
+    }
+
+    fn report(subject: Subject<'_>, summary: &Self::Summary) -> Document {
+        evaluation::beliefs(subject, summary)
     }
 }

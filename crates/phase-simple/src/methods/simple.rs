@@ -2,16 +2,18 @@
 
 use super::variants::{VARIANTS, Variant};
 use crate::{
-    AlternativeAgents, Cues, ForecastSettings, Guidance, Guide, ImaginedAgents, Inference, InferenceError,
-    InferenceSettings, MindPosterior, Models, ModelsError, Observer, ObserverError, PreparedEvent, futures,
-    infer,
+    Algorithm, AlternativeAgents, Cues, ForecastSettings, Guidance, Guide, ImaginedAgents, Inference,
+    InferenceError, InferenceSettings, InversePlanningSettings, MindPosterior, Models, ModelsError, Observer,
+    ObserverError, PreparedEvent, futures, infer, knowledge,
 };
 use core::ops::ControlFlow;
 use phase_event::{
-    Forecaster, MethodError, MethodResult, ObservedEvent, Prediction, ProgressCallback, Recogniser, SAMPLES,
+    BeliefReader, Beliefs, Forecaster, MethodError, MethodResult, ObservedEvent, PLACES, Prediction,
+    ProgressCallback, Recogniser, SAMPLES, others, whereabouts,
 };
 use phase_minds::{MindKind, Recorder};
-use phase_model::Judgement;
+use phase_model::{AGENT_COUNT, AgentId, Entity, Judgement};
+use phase_perception::observed_set;
 use serde_json::{Value, json};
 use std::sync::Arc;
 
@@ -182,6 +184,76 @@ impl Recogniser for Simple {
         let prepared = self.prepare(observed, seed);
         let inference = self.infer(&prepared, seed, tick).map_err(MethodError::new)?;
         Ok(inference.map(|inference| (self.judgement(&inference), details(&prepared, &inference))))
+    }
+}
+
+impl BeliefReader for Simple {
+    fn settings(&self) -> Value {
+        Recogniser::settings(self)
+    }
+
+    fn ticks(&self) -> usize {
+        self.settings.ticks()
+    }
+
+    /// The particles of minds that explain the motion, averaged over what each agent may know of objects
+    /// beside what it sees. Goals are those of the likeliest hypothesis.
+    fn read_beliefs(
+        &self,
+        observed: &ObservedEvent,
+        steps: &[usize],
+        seed: u64,
+        tick: ProgressCallback<'_>,
+    ) -> MethodResult<Vec<Beliefs>> {
+        let prepared = self.prepare(observed, seed);
+        let inference = self.infer(&prepared, seed, &mut *tick).map_err(MethodError::new)?;
+        let Some(inference) = inference else { return Ok(None) };
+        let Some((likeliest, _)) = inference.posterior.hypotheses.first() else {
+            return Err(MethodError::new("has no explanation"));
+        };
+        // Published minds have no other senses than their own.
+        let prepared = match prepared.agents().minds.kind() {
+            MindKind::Phase => prepared,
+            MindKind::Published => prepared.with_agents(ImaginedAgents::of(MindKind::Phase)),
+        };
+        let planning = match self.settings.algorithm {
+            Algorithm::InversePlanning(planning) => planning,
+            Algorithm::Chains(_) => InversePlanningSettings::default(),
+        };
+        let mut weighted = Vec::with_capacity(AGENT_COUNT);
+        for agent in AgentId::ALL {
+            let of_agent = knowledge::weigh(&prepared, likeliest, agent, &planning, &mut *tick);
+            let Some(of_agent) = of_agent.map_err(MethodError::new)? else { return Ok(None) };
+            weighted.push(of_agent);
+        }
+        let objects = observed.object_sizes().len();
+        let physics = observed.physics([0.0; AGENT_COUNT]);
+        let beliefs = |&step: &usize| {
+            AgentId::ALL.map(|agent| {
+                let seen = observed_set(&physics, &prepared.motion().states[step], agent);
+                let of = |entity: Entity| {
+                    let mut places = [0.0; PLACES];
+                    for (beliefs, probability) in &weighted[agent.index()] {
+                        let particles = beliefs.after(step).particles();
+                        let shares = whereabouts(particles, entity, seen.contains(entity));
+                        places
+                            .iter_mut()
+                            .zip(shares)
+                            .for_each(|(place, share)| *place += probability * share);
+                    }
+                    places
+                };
+                others(agent, objects).map(of).collect()
+            })
+        };
+        let answers = steps.iter().map(beliefs).collect();
+        let knows = |of_agent: &knowledge::WeightedBeliefs| {
+            let of: Vec<f64> = of_agent.iter().map(|(_, probability)| *probability).collect();
+            json!({ "own": of[0], "start": of[1], "objects": of[2] })
+        };
+        let mut details = details(&prepared, &inference);
+        details["sees"] = weighted.iter().map(knows).collect();
+        Ok(Some((answers, details)))
     }
 }
 

@@ -4,11 +4,11 @@ use super::rows::{BehaviourTest, Criterion, Form};
 use phase_evidence::{
     Effect, GoalOutcome, Rest, Track, blocking, contact, exploration, holding, outcome,
     pursuit::Pursuit,
+    search::{self, FirstLook},
     selection::{FINAL_REST_STEPS, MIN_VISIBLE_STEPS},
 };
-use phase_model::{AgentId, Entity, Goal, ObjectId, Scene, State, Vec2, layout::room_of};
+use phase_model::{AgentId, Entity, Goal, ObjectId, Scene, State, layout::room_of};
 use phase_navigation::{IMPASSABLE_COST, Map};
-use phase_perception::{Cell, observe};
 
 /// Maximum number of steps for an agent to release its object and come to rest after its goal is reached.
 const SETTLING_STEPS: usize = 8;
@@ -224,31 +224,19 @@ impl Case<'_> {
     /// start, or the object, which by then has to be in another room.
     fn wrong_place(&self, goal: Goal, wanted: bool) -> Assessment {
         let waits = usize::from(self.scene.agents[self.part.judged].awareness.waits);
-        let (Some(first), Some(begin)) = (self.track.states.first(), self.track.states.get(waits)) else {
-            return (false, None, "the event ended before the agent acted".into());
-        };
         let object = goal.subject();
-        let old = first.position(object);
-        if room_of(old) == room_of(begin.position(object)) {
-            return (false, None, "the object was not moved to another room".into());
+        if !search::was_moved(self.track, object, waits) {
+            return (false, None, "the object was not moved to another room before the agent acted".into());
         }
-        let radius = match object {
-            Entity::Object(id) => Vec2::splat(self.track.physics.object_radii[id]),
-            Entity::Agent(_) => Vec2::ZERO,
-        };
-        let me = self.part.judged;
-        let looked = self.track.states.iter().enumerate().skip(waits).find_map(|(step, state)| {
-            let seen = observe(&self.track.physics, state, me);
-            let mut place = Cell::in_box(old - radius, old + radius);
-            let wrong = place.any(|cell| seen.sees_cell(cell));
-            (wrong || seen.observed.contains(object)).then_some((step, wrong))
-        });
-        let notes = match looked {
-            Some((step, true)) => format!("looked where it had been, at step {step}"),
-            Some((step, false)) => format!("saw it where it is, at step {step}"),
+        let look = search::first_look(self.track, self.part.judged, object, waits);
+        let notes = match look {
+            Some(FirstLook { step, at_old_place, approach }) => {
+                let what = if at_old_place { "looked where it had been" } else { "saw it where it is" };
+                format!("{what}, at step {step}, {approach:.1} u nearer")
+            }
             None => "saw neither".into(),
         };
-        (looked.is_some_and(|(_, wrong)| wrong == wanted), None, notes)
+        (look.is_some_and(|look| look.at_old_place == wanted), None, notes)
     }
 
     fn held_anything(&self, agent: AgentId) -> usize {
