@@ -68,9 +68,9 @@ pub struct BeliefEvent {
 }
 
 impl BeliefEvent {
-    /// The questions about some beliefs, as far as the particles agree on a place, with their answers. `truth`
-    /// and `answers` have one entry for each of the steps; `moved` says whether an entity that an agent
-    /// does not see was moved meanwhile.
+    /// The questions about some beliefs, as far as the particles agree on a place, with their answers.
+    /// `truth` and `answers` have one entry for each of the steps; `moved` says whether an entity that an
+    /// agent does not see was moved meanwhile.
     ///
     /// # Errors
     /// A sentence, if the answers have another form, or are no probabilities.

@@ -21,15 +21,16 @@ fn observed() -> ObservedEvent {
         [agent(8.5, angle), agent(23.0, 0.0), Body::at_rest(object, 0.0), Body::default()]
     };
     let rows = (0..6).map(row).collect();
-    ObservedEvent::new(Layout::new(0, None).unwrap(), [Size::Small; 2], vec![Size::Small], rows).unwrap()
+    let layout = Layout::new(0, None).expect("a layout");
+    ObservedEvent::new(layout, [Size::Small; 2], vec![Size::Small], rows).expect("an event")
 }
 
 /// The place of the object in an agent's belief after each step.
 fn places(rule: BeliefRule, agent: AgentId) -> Vec<usize> {
     let steps: Vec<usize> = (0..6).collect();
     let answer = rule.read_beliefs(&observed(), &steps, 1, &mut || ControlFlow::Continue(()));
-    let (beliefs, _) = answer.unwrap().unwrap();
-    let place = |of: &Beliefs| of[agent][1].iter().position(|&p| p == 1.0).unwrap();
+    let (beliefs, _) = answer.expect("an answer").expect("not cancelled");
+    let place = |of: &Beliefs| of[agent][1].iter().position(|&p| p == 1.0).expect("a place");
     beliefs.iter().map(place).collect()
 }
 

@@ -30,8 +30,8 @@ pub enum Stance {
     Same,
     /// It wants the object of the other on another landmark, α = 0: the two compete.
     Rival,
-    /// As `Rival`, but it first waits where it does not see the object, and knows where that was at the start:
-    /// once the other has moved it, its belief is false.
+    /// As `Rival`, but it first waits where it does not see the object, and knows where that was at the
+    /// start: once the other has moved it, its belief is false.
     Unaware,
     /// As `Unaware`, but it is told of every move: its belief is true.
     Told,

@@ -138,8 +138,8 @@ fn can_interfere(scene: &Scene, goal: Goal) -> bool {
     }
 }
 
-/// Whether the bodies are where the variant needs them. Nothing is required of the first edition's variants, and of
-/// seeking, beyond their drafts, except where they are cast on a stage that was drawn for another one.
+/// Whether the bodies are where the variant needs them. Nothing is required of the first edition's variants,
+/// and of seeking, beyond their drafts, except where they are cast on a stage that was drawn for another one.
 fn is_placed(variant: Variant, scene: &Scene) -> bool {
     let [first, goal] = scene.goals();
     let [room, other_room] = [0, 1].map(|role: usize| room_of(scene.agents[role].start.position));
@@ -192,8 +192,8 @@ fn is_placed(variant: Variant, scene: &Scene) -> bool {
     }
 }
 
-/// Whether agent 0, as long as it stays, sees nothing of how agent 1 carries an object from a place to another.
-/// It would see it in neither place if it turned, and goes to them through different doors.
+/// Whether agent 0, as long as it stays, sees nothing of how agent 1 carries an object from a place to
+/// another. It would see it in neither place if it turned, and goes to them through different doors.
 fn is_moved_unseen(scene: &Scene, object: ObjectId, from: Vec2, to: Vec2) -> bool {
     let physics = scene.physics();
     let map = Map::new(scene.layout);

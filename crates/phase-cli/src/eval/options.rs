@@ -58,8 +58,8 @@ pub struct EvalTrajectories {
 /// Options of `eval beliefs`.
 #[derive(Args, Debug)]
 pub struct EvalBeliefs {
-    /// The method to measure: simple, or the room where the agent could last see an entity, where it is now, or
-    /// where it was at the start
+    /// The method to measure: simple, or a rule: the room where the agent could last see an entity, where it
+    /// is now, or where it was at the start
     #[arg(long, value_name = "METHOD", value_parser = PossibleValuesParser::new(methods::BELIEF_READERS),
           required_unless_present = "predictions")]
     pub method: Option<String>,

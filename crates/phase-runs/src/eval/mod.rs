@@ -2,7 +2,8 @@
 //!
 //! [`methods`] knows the methods by name, `task` asks one of them event by event and stores its answers, so
 //! that a run can be interrupted; `shards` divides it among machines; `goals` and `trajectories` are the two
-//! tasks of the paper, `beliefs` is about what agents believe, `answers` has also those of an external method.
+//! tasks of the paper, `beliefs` is about what agents believe, `answers` has also those of an external
+//! method.
 
 pub(crate) mod answers;
 mod beliefs;
