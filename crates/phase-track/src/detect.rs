@@ -20,6 +20,9 @@ const EDGES: [f32; 3] = [SHARP, 2.5, 4.0];
 const CLEAR: f32 = 18.0;
 /// Least area of a body's plain colour (u²): half that of the smallest.
 const LEAST_AREA: f32 = 0.7;
+/// Greatest mean square distance of a patch's pixels from its middle, as a share of its area: 0.16 in discs,
+/// 0.21 to 0.24 in agents, more where others cover a part of them, and 1.5 to 3.5 in strips that were seen.
+const MOST_SPREAD: f32 = 0.6;
 /// Directions in which an agent is looked for.
 const DIRECTIONS: usize = 12;
 /// Radius of the smallest body at which its form can be told (pixels looked at).
@@ -135,13 +138,19 @@ fn patches(picture: &Picture<'_>, stage: &Stage, walls: &[Segment]) -> Vec<Patch
         }
         let centre = median(&mine);
         let is_close = |point: Vec2| point.distance(centre) < 3.2;
-        let close = mine.iter().filter(|(point, _)| is_close(*point));
-        let mut count = close.clone().count();
-        let middle = close.fold(Vec2::ZERO, |sum, (point, _)| sum + *point) / count.max(1) as f32;
-        let of_colour = |(point, it): &&(Vec2, Rgb)| is_close(*point) && distance(*it, colour) < 1.5 * near;
-        count += edges.iter().filter(of_colour).count();
-        let area = count as f32 * pixel;
-        if area >= LEAST_AREA {
+        let points = |of: &[(Vec2, Rgb)]| -> Vec<Vec2> {
+            let of_colour =
+                |(point, it): &&(Vec2, Rgb)| is_close(*point) && distance(*it, colour) < 1.5 * near;
+            of.iter().filter(of_colour).map(|(point, _)| *point).collect()
+        };
+        let mut close = points(&mine);
+        let middle = close.iter().sum::<Vec2>() / close.len().max(1) as f32;
+        close.append(&mut points(&edges));
+        let area = close.len() as f32 * pixel;
+        let spread = close.iter().map(|point| point.distance_squared(middle)).sum::<f32>() * pixel / area;
+        // Edges of landmarks in compressed pictures are long strips of a colour of their own.
+        let is_compact = spread < MOST_SPREAD * area;
+        if area >= LEAST_AREA && is_compact {
             patches.push(Patch { colour, centre: middle, area });
         }
     }
