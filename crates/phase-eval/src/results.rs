@@ -24,7 +24,8 @@ pub fn beliefs(run: &Value, summary: &BeliefSummary, events: &[BeliefEvent]) -> 
     Ok(json!({
         "format": BELIEFS_FORMAT, "run": run, "method": run["method"], "seed": run["seed"],
         "n_events": summary.n,
-        "all": to_value(&summary.all)?, "unseen": to_value(&summary.unseen)?, "moved": to_value(&summary.moved)?,
+        "all": to_value(&summary.all)?, "unseen": to_value(&summary.unseen)?,
+        "moved": to_value(&summary.moved)?,
         "events": to_value(events)?,
     }))
 }

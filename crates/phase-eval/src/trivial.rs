@@ -104,7 +104,7 @@ fn straight_on(observed: &ObservedEvent, steps: usize, share: f32) -> Forecast {
 /// where it was at some other time.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum BeliefRule {
-    /// When the agent could last see it, or at the start if it never could.
+    /// The state in which the agent could last see it, or that at the start if it never could.
     LastSeen,
     /// Now.
     TrueState,
@@ -140,7 +140,7 @@ impl BeliefReader for BeliefRule {
     }
 }
 
-/// What each agent can see in each row.
+/// The bodies that each agent can see in each row.
 fn seen_at(observed: &ObservedEvent) -> Vec<[BodySet; AGENT_COUNT]> {
     let physics = observed.physics([0.0; AGENT_COUNT]);
     let states = observed.rows().iter().map(|&row| State::new(row));

@@ -1,4 +1,4 @@
-//! Where agents believe entities to be.
+//! Places at which agents believe entities to be.
 
 use crate::{MethodResult, ObservedEvent, ProgressCallback};
 use phase_model::{AGENT_COUNT, AgentId, Entity, RoomId, State, layout::room_of};

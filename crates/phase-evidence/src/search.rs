@@ -1,4 +1,4 @@
-//! Where an agent looks for an object that was moved while it waited.
+//! The place at which an agent looks for an object that was moved while it waited.
 
 use crate::Track;
 use phase_model::{AgentId, Entity, Vec2, layout::room_of};
@@ -11,7 +11,7 @@ pub struct FirstLook {
     pub step: usize,
     /// Whether it sees the place that the object has left.
     pub at_old_place: bool,
-    /// How much closer to what it then sees it has come since it acts (u).
+    /// Way by which it has come closer, since it acts, to the body or place that it then sees (u).
     pub approach: f32,
 }
 
@@ -19,7 +19,8 @@ pub struct FirstLook {
 #[must_use]
 pub fn was_moved(track: &Track, object: Entity, waits: usize) -> bool {
     let room = |state: &phase_model::State| room_of(state.position(object));
-    matches!((track.states.first(), track.states.get(waits)), (Some(start), Some(then)) if room(start) != room(then))
+    let ends = (track.states.first(), track.states.get(waits));
+    matches!(ends, (Some(start), Some(then)) if room(start) != room(then))
 }
 
 /// Whether an agent that waits for some steps sees in none of them the object or the place where that was at

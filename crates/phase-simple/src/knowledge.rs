@@ -1,4 +1,4 @@
-//! What agents know of objects without seeing them, inferred from where they go.
+//! Knowledge that agents have of objects without seeing them, inferred from where they go.
 
 use crate::{
     Hypothesis, InversePlanningSettings, PreparedEvent,
@@ -14,7 +14,7 @@ use phase_statistics::log_softmax;
 /// Distance within which an agent that has not begun to act stays (u), and the angle (rad).
 const STAY: f32 = 0.1;
 
-/// What an agent may know of objects.
+/// Kinds of knowledge of objects that an agent may have.
 pub(crate) const SIGHTS: [Sight; 3] = [Sight::Own, Sight::Start, Sight::Objects];
 
 /// An agent's beliefs under each of the [`SIGHTS`], with its probability.

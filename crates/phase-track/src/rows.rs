@@ -38,7 +38,7 @@ const LEAST_MOTION: f64 = 1e-4;
 const LEAST_RATE_OF_MOTION: f64 = 7.9;
 /// Greatest misfit of lines from row to row, as a share of that of smooth ones. Sharp or compressed, videos
 /// of rows had .04 to .72, those of motion .86 to 1.5.
-const STRAIGHT: f64 = 0.8;
+const STRAIGHT: f64 = 0.85;
 /// Difference (u) from a line that is plain in a sharp picture.
 const PLAIN: f64 = 0.01;
 /// Weight of what is shown at a row's own time beside the frames around it.

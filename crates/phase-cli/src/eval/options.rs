@@ -13,7 +13,7 @@ pub enum Eval {
     Goals(EvalGoals),
     /// Task 2 of the paper: errors of predicted trajectories, 20 steps after the first 20
     Trajectories(EvalTrajectories),
-    /// Where agents believe entities to be, in simulated events
+    /// Places at which agents believe entities to be, in simulated events
     Beliefs(EvalBeliefs),
 }
 

@@ -58,10 +58,10 @@ pub enum RejectionReason {
     NoProgress,
     /// The manner of helping, hindering or meeting that the variant is about was not seen.
     OtherManner,
-    /// When the agent that waited acts, the object is in the room where it was at the start, or the agent has
-    /// seen it or its place meanwhile.
+    /// The object is still in the room where it was at the start when the agent that waited acts, or that agent
+    /// has seen it or its place meanwhile.
     Unmoved,
-    /// That agent did not go where it believes the object to be, or did not look there first.
+    /// The agent that waited did not go where it believes the object to be, or did not look there first.
     Unsearched,
     /// Without the agent that is to make a difference the result would have been the same.
     NoEffect,

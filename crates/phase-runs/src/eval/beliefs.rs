@@ -1,4 +1,4 @@
-//! Where agents believe entities to be, compared with their particles.
+//! Places at which agents believe entities to be, compared with their particles.
 
 use super::{Answers, answers::AnswerSource, input::Event, methods, task::Task};
 use crate::error::RunError;
@@ -82,7 +82,7 @@ struct Truth {
     objects: usize,
     /// The state before the first step and after every one.
     states: Vec<State>,
-    /// What each agent sees in them with its own eyes.
+    /// The bodies that each agent sees in them with its own eyes.
     seen: Vec<[BodySet; AGENT_COUNT]>,
     particles: [Vec<Vec<State>>; AGENT_COUNT],
 }
