@@ -38,15 +38,18 @@ pub(crate) struct Found {
     pub(crate) fit: Fit,
 }
 
-/// The agents, then the objects; and how wide edges are (pixels).
+/// The agents, then the objects; and how wide edges are (pixels). `thin_too` if bodies may have few pixels of
+/// plain colour.
 pub(crate) fn bodies(
     picture: &Picture<'_>,
     stage: &Stage,
     ground: &[u8],
     negative: bool,
+    thin_too: bool,
 ) -> Result<(f32, Vec<Found>), TrackError> {
     let walls = stage.layout.walls();
-    let patches = patches(picture, stage, &walls);
+    let mut patches = patches(picture, stage, &walls);
+    patches.retain(|patch| thin_too || !patch.thin);
     let mut best: Option<(f32, f32, Vec<Found>)> = None;
     for soft in EDGES {
         let view = stage.view;
@@ -94,13 +97,15 @@ struct Patch {
     centre: Vec2,
     /// u²
     area: f32,
+    /// Whether most of it are edges: of a small body, or of one of which others cover a part.
+    thin: bool,
 }
 
 fn patches(picture: &Picture<'_>, stage: &Stage, walls: &[Segment]) -> Vec<Patch> {
     let (width, height) = picture.size();
     let near = 26.0 + 3.0 * stage.noise;
-    // Pixels in the midst of a colour tell what colours there are; those at its edges count for its area,
-    // of which they are most where bodies are small.
+    // Pixels in the midst of a colour tell what colours there are; those at its edges count, too, where bodies
+    // are so small that these are most of their area.
     let mut pixels: Vec<(Vec2, Rgb)> = Vec::new();
     let mut edges: Vec<(Vec2, Rgb)> = Vec::new();
     let corner = stage.view.corner;
@@ -145,13 +150,18 @@ fn patches(picture: &Picture<'_>, stage: &Stage, walls: &[Segment]) -> Vec<Patch
         };
         let mut close = points(&mine);
         let middle = close.iter().sum::<Vec2>() / close.len().max(1) as f32;
-        close.append(&mut points(&edges));
-        let area = close.len() as f32 * pixel;
-        let spread = close.iter().map(|point| point.distance_squared(middle)).sum::<f32>() * pixel / area;
-        // Edges of landmarks in compressed pictures are long strips of a colour of their own.
-        let is_compact = spread < MOST_SPREAD * area;
-        if area >= LEAST_AREA && is_compact {
-            patches.push(Patch { colour, centre: middle, area });
+        let mut area = close.len() as f32 * pixel;
+        let thin = area < LEAST_AREA;
+        let mut is_body = !thin;
+        if thin {
+            close.append(&mut points(&edges));
+            area = close.len() as f32 * pixel;
+            let spread = close.iter().map(|point| point.distance_squared(middle)).sum::<f32>() * pixel / area;
+            // Edges of landmarks in compressed pictures are long strips of a colour of their own.
+            is_body = area >= LEAST_AREA && spread < MOST_SPREAD * area;
+        }
+        if is_body {
+            patches.push(Patch { colour, centre: middle, area, thin });
         }
     }
     patches

@@ -58,8 +58,8 @@ pub enum RejectionReason {
     NoProgress,
     /// The manner of helping, hindering or meeting that the variant is about was not seen.
     OtherManner,
-    /// The object is still in the room where it was at the start when the agent that waited acts, or that agent
-    /// has seen it or its place meanwhile.
+    /// The object is still in the room where it was at the start when the agent that waited acts, or that
+    /// agent has seen it or its place meanwhile.
     Unmoved,
     /// The agent that waited did not go where it believes the object to be, or did not look there first.
     Unsearched,

@@ -12,6 +12,8 @@ use crate::{
 use core::f32::consts::TAU;
 use phase_model::{Size, Vec2};
 
+/// Time (s) after which what looks like a body of which others cover a part is taken for a small one.
+const LONGEST_COVERED: f64 = 2.0;
 /// Longest time that a body may be hidden (s).
 const LONGEST_HIDDEN: f64 = 3.0;
 /// Farthest way of a body from one frame to the next (u): that of a step, where rows are held.
@@ -89,7 +91,7 @@ impl Known {
                 }
             }
         }
-        let (soft, found) = detect::bodies(picture, &stage, &ground, negative)?;
+        let (soft, found) = detect::bodies(picture, &stage, &ground, negative, now >= LONGEST_COVERED)?;
         let followed = found.iter().map(|&Found { body, size, fit }| Followed {
             body,
             size,
@@ -194,7 +196,7 @@ impl Known {
                     let colour = format!("#{red:02x}{green:02x}{blue:02x}");
                     return Err(TrackError::Lost { colour, start: it.seen, seconds: hidden });
                 }
-                let near = FASTEST * hidden.abs() as f32;
+                let near = FARTHEST + FASTEST * hidden.abs() as f32;
                 let predicted = hiding_place(&surroundings, &it.body, predicted, near);
                 let error = 0.1 + it.velocity.length() * hidden.abs() as f32;
                 fit = Fit { pose: predicted, deviation: [error, error, error / it.body.radius], ..fit };
