@@ -104,8 +104,8 @@ struct Patch {
 fn patches(picture: &Picture<'_>, stage: &Stage, walls: &[Segment]) -> Vec<Patch> {
     let (width, height) = picture.size();
     let near = 26.0 + 3.0 * stage.noise;
-    // Pixels in the midst of a colour tell what colours there are; those at its edges count, too, where bodies
-    // are so small that these are most of their area.
+    // Pixels in the midst of a colour tell what colours there are; those at its edges count, too, where
+    // bodies are so small that these are most of their area.
     let mut pixels: Vec<(Vec2, Rgb)> = Vec::new();
     let mut edges: Vec<(Vec2, Rgb)> = Vec::new();
     let corner = stage.view.corner;

@@ -193,9 +193,10 @@ fn the_arena_is_as_large_as_its_landmarks_say() {
 #[test]
 fn small_agents_in_small_pictures_are_found() {
     let radii = [0.8, 0.8, 1.01, 1.01];
-    let video = Video { width: 320, height: 240, scale: 5.0, corner: (60.0, 20.0), radii, ..PUBLISHED };
-    let track = video.track(0.6, walk).expect("a track");
-    let (place, turn) = errors(&track, walk);
+    let half = Video { width: 320, height: 240, scale: 5.0, corner: (60.0, 20.0), radii, ..PUBLISHED };
+    let slowly = |seconds: f32| walk(0.2 * seconds);
+    let track = Video { frame_rate: 8.0, ..half }.track(2.5, slowly).expect("a track");
+    let (place, turn) = errors(&track, slowly);
     assert!(place < 0.15 && turn < 0.1, "{place} u, {turn} rad");
 }
 
