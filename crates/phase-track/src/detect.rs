@@ -48,8 +48,11 @@ pub(crate) fn bodies(
     thin_too: bool,
 ) -> Result<(f32, Vec<Found>), TrackError> {
     let walls = stage.layout.walls();
-    let mut patches = patches(picture, stage, &walls);
-    patches.retain(|patch| thin_too || !patch.thin);
+    let patches = patches(picture, stage, &walls);
+    if !thin_too && patches.iter().any(|patch| patch.thin) {
+        // A later picture may show more of it.
+        return Err(TrackError::Bodies { agents: 0, objects: 0 });
+    }
     let mut best: Option<(f32, f32, Vec<Found>)> = None;
     for soft in EDGES {
         let view = stage.view;

@@ -142,6 +142,10 @@ fn rubbish_is_refused() {
         (&["eval", "goals", "--method", "guess", "--events", "events.json"], &["guess", "chance"]),
         (&["eval", "trajectories", "--method", "chance", "--events", "events.json"], &["chance", "still"]),
         (
+            &["eval", "beliefs", "--method", "last-seen", "--events", "events.json"],
+            &["events.json", "was not simulated"],
+        ),
+        (
             &["eval", "trajectories", "--method", "still", "--events", "short.json"],
             &["short.json", "event short has 20 steps"],
         ),

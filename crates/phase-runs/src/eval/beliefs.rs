@@ -45,6 +45,10 @@ impl Task for BeliefTask {
     }
 
     fn check(&self, event: &Event, file: &Path) -> Result<(), RunError> {
+        if !event.simulated {
+            let rule = "was not simulated, so nobody knows its agents' beliefs";
+            return Err(RunError::Usage(format!("{}: event {}: {rule}", file.display(), event.id)));
+        }
         if !asked_steps(event.steps).is_empty() {
             return Ok(());
         }

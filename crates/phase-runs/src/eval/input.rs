@@ -39,6 +39,8 @@ pub(crate) struct Event {
     pub steps: usize,
     /// Its numbers of agents and objects.
     pub entities: usize,
+    /// Whether it was simulated, so that the thoughts of its agents are known.
+    pub simulated: bool,
     /// The set that it belongs to, if its dataset consists of sets.
     pub set: Option<String>,
     /// Whether its base layout is in the training or validation events too, if the dataset is divided
@@ -96,6 +98,7 @@ fn of_manifest(manifest: &Manifest, split: Option<Split>) -> Vec<Event> {
         id: entry.id.clone(),
         steps: entry.steps,
         entities: AGENT_COUNT + entry.object_size_levels.len(),
+        simulated: true,
         set: entry.set.as_ref().map(|place| place.set.clone()),
         layout_seen: divided.then(|| layouts.contains(&entry.layout.base)),
         interaction_seen: entry.variant.filter(|_| divided).map(|variant| variants.contains(&variant)),
@@ -113,6 +116,7 @@ fn of_recording(index: usize, recording: &Recording) -> Result<Event, RunError> 
         id: recording.id.clone(),
         steps: rows.steps(),
         entities: AGENT_COUNT + scene.objects.len(),
+        simulated: recording.simulation.is_some(),
         set: None,
         layout_seen: None,
         interaction_seen: None,
