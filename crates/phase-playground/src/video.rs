@@ -111,7 +111,10 @@ impl PageTracker {
 }
 
 const fn is_foreign(why: &TrackError) -> bool {
-    matches!(why, TrackError::NoArena { .. } | TrackError::Walls | TrackError::Bodies { .. })
+    matches!(
+        why,
+        TrackError::NoArena { .. } | TrackError::Walls | TrackError::Covered | TrackError::Bodies { .. }
+    )
 }
 
 /// A name that events can have.

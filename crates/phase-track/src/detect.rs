@@ -51,7 +51,7 @@ pub(crate) fn bodies(
     let patches = patches(picture, stage, &walls);
     if !thin_too && patches.iter().any(|patch| patch.thin) {
         // A later picture may show more of it.
-        return Err(TrackError::Bodies { agents: 0, objects: 0 });
+        return Err(TrackError::Covered);
     }
     let mut best: Option<(f32, f32, Vec<Found>)> = None;
     for soft in EDGES {

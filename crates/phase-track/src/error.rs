@@ -30,6 +30,11 @@ pub enum TrackError {
     /// Inner walls that no layout has.
     #[error("the inner walls in the picture are those of no layout (docs/reference/formats/events.md)")]
     Walls,
+    /// A body of which few pixels are in sight.
+    #[error(
+        "a body shows few pixels of its colour, so that it cannot be told whether others cover a part of it"
+    )]
+    Covered,
     /// Other bodies than two agents and up to two objects.
     #[error(
         "the picture shows {agents} trapezoids and {objects} discs of a colour of their own, not two agents and up to two objects"

@@ -134,7 +134,10 @@ impl TrackRun {
                     track.event(meaning, self.roles.as_ref()).map_err(|error| failed(error.into()))?
                 }
                 Err(VideoError::Track(
-                    why @ (TrackError::NoArena { .. } | TrackError::Walls | TrackError::Bodies { .. }),
+                    why @ (TrackError::NoArena { .. }
+                    | TrackError::Walls
+                    | TrackError::Covered
+                    | TrackError::Bodies { .. }),
                 )) => {
                     let found = shapes(|sink| self.decode(sink)).map_err(|error| match error {
                         // Both reasons are of interest.
