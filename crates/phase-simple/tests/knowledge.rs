@@ -1,4 +1,4 @@
-//! What agents know of objects, and what they believe, inferred from where they go.
+//! Knowledge and beliefs of agents about objects, inferred from where they go.
 
 use core::ops::ControlFlow;
 use phase_event::{BeliefReader, Event, ObservedEvent};

@@ -93,7 +93,7 @@ impl core::fmt::Display for Same {
     }
 }
 
-/// How many decisions at the recorded states have the effect that was recorded: all, and those in which
+/// Numbers of decisions at recorded states that have the recorded effect: all, and those in which
 /// nothing is left to chance.
 fn decisions(recording: &Recorded, random: RandomNumbers) -> [Same; 2] {
     /// Rounding of rows (u).
