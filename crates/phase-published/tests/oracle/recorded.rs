@@ -81,7 +81,7 @@ fn recorded(event: &Value, known: &Value) -> Recorded {
 }
 
 impl Recorded {
-    /// The motion of the bodies under these actions of the two minds.
+    /// The actions that bodies carry out when minds choose `actions`.
     pub(crate) fn carried_out(&self, actions: [Action; AGENT_COUNT]) -> [Action; AGENT_COUNT] {
         let strongest = Strength::Mighty.max_force();
         AgentId::ALL.map(|agent| match actions[agent.index()] {
