@@ -27,11 +27,18 @@ pub fn was_moved(track: &Track, object: Entity, waits: usize) -> bool {
 /// the start.
 #[must_use]
 pub fn missed(track: &Track, agent: AgentId, object: Entity, waits: usize) -> bool {
-    let Some(start) = track.states.first() else { return false };
-    track.states.iter().take(waits + 1).all(|state| {
-        let seen = observe(&track.physics, state, agent);
-        !seen.observed.contains(object) && !sees_place(track, &seen, object, start.position(object))
-    })
+    !track.states.is_empty()
+        && (0..track.states.len().min(waits + 1)).all(|t| !notices(track, agent, object, t))
+}
+
+/// Whether an agent perceives, after `steps` steps, an object or the place where that was at the start.
+///
+/// # Panics
+/// If the track is shorter.
+#[must_use]
+pub fn notices(track: &Track, agent: AgentId, object: Entity, steps: usize) -> bool {
+    let seen = observe(&track.physics, &track.states[steps], agent);
+    seen.observed.contains(object) || sees_place(track, &seen, object, track.states[0].position(object))
 }
 
 /// The first look of an agent that has waited for some steps; `None` if it sees neither.

@@ -9,7 +9,7 @@ use std::ops::RangeInclusive;
 
 /// Steps for which an agent waits that is not to see how the other moves the object: about as long as that
 /// takes.
-pub(crate) const WAITS: RangeInclusive<u16> = 30..=42;
+pub(crate) const WAITS: RangeInclusive<u16> = 40..=48;
 
 /// The victim wants itself or an object on a landmark.
 pub(crate) fn hinder(goals: [Goal; 2], random: &mut impl Rng) -> Option<SceneDraft> {

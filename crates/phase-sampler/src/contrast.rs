@@ -7,14 +7,20 @@
 use crate::{
     SampleError, Variant, adversarial,
     draft::{Objects, Starts, agent_on, choose, object_on},
+    hiding::Hiding,
     recipe::{self, MAX_DRAWS},
-    requirements::is_playable,
+    requirements::{is_moved_soon, is_playable},
 };
 use phase_model::{
     AgentId, Attitude, Awareness, EventKind, Goal, LandmarkId, Layout, ObjectId, Relation, Scene, Sight,
 };
 use rand::{Rng, RngExt};
 use serde::{Deserialize, Serialize};
+
+/// Maximum number of draws of scenes in which an agent is to miss how an object is moved.
+const HIDING_DRAWS: usize = 100 * MAX_DRAWS;
+/// Draws of such scenes in a layout before another is taken.
+const DRAWS_PER_LAYOUT: usize = 2000;
 
 /// The stance of an agent towards the other, or its knowledge of what the other does.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Serialize, Deserialize)]
@@ -160,10 +166,16 @@ impl Contrast {
         if request.layouts.is_empty() || !request.stances.iter().all(|stance| stance.suits(request.about)) {
             return Err(SampleError(variant));
         }
-        // Few draws have places that hide how an object is moved.
-        let draws = if variant == Variant::Seek { 100 * MAX_DRAWS } else { MAX_DRAWS };
-        for _ in 0..draws {
-            let Some(scenes) = propose(request, random) else { continue };
+        // Most places that hide how an object is moved are in few layouts, so each layout has its turn.
+        let hides = variant == Variant::Seek;
+        let draws = if hides { HIDING_DRAWS } else { MAX_DRAWS };
+        let mut layout = [request.layouts[0]];
+        for draw in 0..draws {
+            if hides && draw % DRAWS_PER_LAYOUT == 0 {
+                layout = [choose(request.layouts, random)];
+            }
+            let layouts = if hides { &layout[..] } else { request.layouts };
+            let Some(scenes) = propose(&ContrastRequest { layouts, ..*request }, random) else { continue };
             let swapped = random.random_bool(0.5);
             return Ok(Self {
                 changed: if swapped { AgentId::ONE } else { AgentId::ZERO },
@@ -190,8 +202,13 @@ fn propose(request: &ContrastRequest<'_>, random: &mut impl Rng) -> Option<Vec<S
     let layout = choose(request.layouts, random);
     // The bodies are those of hindering, whose requirements are the fewest.
     let draft = adversarial::hinder([goal.negated(), goal], random)?;
-    let bodies = draft.into_scene(EventKind::Hindering, layout, (Objects::Two, request.starts), random);
+    let mut bodies = draft.into_scene(EventKind::Hindering, layout, (Objects::Two, request.starts), random);
     let of_beliefs = request.stances.iter().any(|stance| stance.sight().is_some());
+    if of_beliefs {
+        // Few places hide how an object is moved.
+        let hiding = Hiding::of(&bodies).filter(|_| is_moved_soon(&bodies))?;
+        bodies.agents[0].start = hiding.draw_start(request.starts, random)?;
+    }
     let waits = if of_beliefs { random.random_range(adversarial::WAITS) } else { 0 };
     let mut scenes = Vec::with_capacity(request.stances.len());
     for &stance in request.stances {

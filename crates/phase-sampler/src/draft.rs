@@ -54,7 +54,7 @@ impl Starts {
     }
 
     /// The place of a body that was drawn near a point.
-    fn place(self, drawn: Vec2) -> Vec2 {
+    pub(crate) fn place(self, drawn: Vec2) -> Vec2 {
         let near = |point: &&Vec2| {
             let off = (drawn - **point).abs();
             off.x <= START_JITTER && off.y <= START_JITTER

@@ -40,6 +40,7 @@ pub mod contrast;
 pub mod draft;
 pub mod feasibility;
 mod friendly;
+mod hiding;
 pub mod named;
 mod neutral;
 pub mod recipe;

@@ -5,10 +5,11 @@ use crate::{
     Variant,
     draft::{SELF_SUFFICIENT, agent_on, object_of, object_on},
     feasibility,
+    hiding::Hiding,
 };
 use phase_model::{
-    AgentId, AgentSpec, Body, Entity, EventKind, Goal, LandmarkId, ObjectId, RoomId, Scene, Sign, Strength,
-    Vec2, arena::LANDMARKS, layout::room_of,
+    AgentId, Entity, EventKind, Goal, LandmarkId, ObjectId, RoomId, Scene, Sign, Strength, arena::LANDMARKS,
+    layout::room_of,
 };
 use phase_navigation::{IMPASSABLE_COST, Map};
 use phase_perception::sees;
@@ -19,8 +20,6 @@ const MIN_COST_RATIO: f32 = 1.5;
 const MAX_UNDONE_COST: f32 = 35.0;
 /// Limit of the cost of a goal that is to be reached before another acts (u).
 const MAX_MOVED_COST: f32 = 50.0;
-/// The field of view of an agent that is to see nothing is that much wider (rad): bodies stray from the way.
-const SPARE_ANGLE: f32 = 0.5;
 /// Maximum distance from an object of an agent that is to come to it while there is still something to be
 /// seen (u).
 const MAX_ARRIVAL: f32 = 14.0;
@@ -175,15 +174,7 @@ fn is_placed(variant: Variant, scene: &Scene) -> bool {
             away && carried_farther && near <= MAX_BY && MAX_BY + MIN_HEAD_START <= far && place == room
         }
         Variant::Undo => beside && far < near && near <= MAX_ARRIVAL,
-        Variant::Seek => {
-            let start = scene.objects[object.index()].start.position;
-            let landmark = goal.landmark().map(|landmark| LANDMARKS[landmark]);
-            let found = sees(&scene.physics(), &scene.initial_state(), AgentId::ONE, goal.subject());
-            beside
-                && found
-                && far <= MAX_BY
-                && landmark.is_some_and(|to| is_moved_unseen(scene, object, start, to))
-        }
+        Variant::Seek => is_moved_soon(scene) && Hiding::of(scene).is_some_and(|it| it.hides()),
         Variant::Compete => {
             let rooms = [first, goal].map(|goal| goal.landmark().map(LandmarkId::room));
             !rooms.contains(&Some(place)) && near.max(far) <= MAX_ARRIVAL
@@ -192,41 +183,15 @@ fn is_placed(variant: Variant, scene: &Scene) -> bool {
     }
 }
 
-/// Whether agent 0, as long as it stays, sees nothing of how agent 1 carries an object from a place to
-/// another. It would see it in neither place if it turned, and goes to them through different doors.
-fn is_moved_unseen(scene: &Scene, object: ObjectId, from: Vec2, to: Vec2) -> bool {
-    let physics = scene.physics();
-    let map = Map::new(scene.layout);
-    let [seeker, mover] = [0, 1].map(|role: usize| physics.agents[role].width());
-    let AgentSpec { start: Body { position: here, angle, .. }, .. } = scene.agents[0];
-    let first_door = |to: Vec2| {
-        let way = map.route(here, to, seeker, map.gaps(), IMPASSABLE_COST)?;
-        way.doors().first().map(|&(slot, _)| slot)
-    };
-    let doors = [from, to].map(first_door);
-    if doors.contains(&None) || doors[0] == doors[1] {
-        return false;
-    }
-    let sees_at = |place: Vec2, angle: f32| {
-        let mut state = scene.initial_state();
-        state.body_mut(Entity::Object(object)).position = place;
-        state.body_mut(Entity::Agent(AgentId::ZERO)).angle = angle;
-        sees(&physics, &state, AgentId::ZERO, Entity::Object(object))
-    };
-    let turned_to = |place: Vec2| libm::atan2f(here.x - place.x, place.y - here.y);
-    if [from, to].into_iter().any(|place| sees_at(place, turned_to(place))) {
-        return false;
-    }
-    let width = mover.max(2.0 * physics.object_radii[object.index()]);
-    let Some(way) = map.route(from, to, width, map.gaps(), IMPASSABLE_COST) else { return false };
-    let mut place = from;
-    way.doors().iter().map(|&(_, crossing)| crossing).chain([to]).all(|end| {
-        let start = core::mem::replace(&mut place, end);
-        let parts = start.distance(end).ceil().max(1.0);
-        let places = (0..=parts as usize).map(|part| start.lerp(end, part as f32 / parts));
-        let headings = [angle - SPARE_ANGLE, angle + SPARE_ANGLE];
-        !places.into_iter().any(|place| headings.iter().any(|&heading| sees_at(place, heading)))
-    })
+/// Whether agent 1 sees an object at the start that it is to carry to a room beside, and is near it.
+pub(crate) fn is_moved_soon(scene: &Scene) -> bool {
+    let goal = scene.agents[1].goal;
+    let Some(object) = object_of(goal) else { return false };
+    let place = room_of(scene.objects[object.index()].start.position);
+    goal.landmark().map(LandmarkId::room) != Some(place)
+        && start_distance(scene, 1, object) <= MAX_BY
+        && goal.distance(&scene.initial_state()) <= MAX_BESIDE
+        && sees(&scene.physics(), &scene.initial_state(), AgentId::ONE, goal.subject())
 }
 
 /// Whether agent 1 cannot come to the object that it wants, but stands by the way on which agent 0 brings it.

@@ -71,10 +71,12 @@ fn a_stance_that_does_not_suit_the_goal_is_an_error() {
 #[test]
 fn beliefs_differ_in_what_the_agent_is_told() {
     let layouts: Vec<Layout> = Layout::all_used().collect();
+    let mut bases = BTreeSet::new();
     for goal_index in 0..8 {
         let stances = [Stance::Unaware, Stance::Told];
         let contrast = sample(&stances, About::Object, goal_index, &layouts, goal_index as u64).unwrap();
         let me = contrast.changed;
+        bases.insert(contrast.scenes[0].layout.base());
         let [unaware, told] = [0, 1].map(|k: usize| contrast.scenes[k].clone());
         assert_eq!(
             (unaware.agents[me].awareness.sees, told.agents[me].awareness.sees),
@@ -104,4 +106,6 @@ fn beliefs_differ_in_what_the_agent_is_told() {
             }
         }
     }
+    // Most places that hide the object are in two of the layouts.
+    assert!(bases.len() > 3, "{bases:?}");
 }

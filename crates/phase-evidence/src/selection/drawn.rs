@@ -9,7 +9,10 @@ use super::{
     kinds,
 };
 use crate::{
-    Clarity, GoalOutcome, Manner, Track, contact, holding, manner, outcome, pursuit::Pursuit, rest, search,
+    Clarity, GoalOutcome, Manner, Track, contact, holding, manner, outcome,
+    pursuit::Pursuit,
+    rest,
+    search::{self, FirstLook},
 };
 use core::ops::Range;
 use phase_model::{
@@ -196,20 +199,29 @@ fn searching(scene: &Scene, track: &Track, seeker: AgentId) -> Result<(), Reject
     pursued(scene, track, seeker.other())?;
     let missed = search::was_moved(track, object, waits) && search::missed(track, seeker, object, waits);
     require(missed, RejectionReason::Unmoved)?;
-    let is_false = awareness.sees == Sight::Start;
-    let look = search::first_look(track, seeker, object, waits);
-    let shown = look.is_some_and(|it| it.at_old_place == is_false && it.approach >= MIN_SEARCH);
+    let shown =
+        search::first_look(track, seeker, object, waits).is_some_and(|look| shows(look, scene, seeker));
     require(shown, RejectionReason::Unsearched)
 }
 
-/// Whether the agent of a scene that waits is about to act, and the object was not moved unseen.
-pub(super) fn is_moved_in_vain(scene: &Scene, track: &Track) -> bool {
-    seeker(scene).is_some_and(|seeker| {
-        let AgentSpec { goal, awareness, .. } = scene.agents[seeker];
-        let (object, waits) = (goal.subject(), usize::from(awareness.waits));
-        track.steps() == waits
-            && !(search::was_moved(track, object, waits) && search::missed(track, seeker, object, waits))
-    })
+/// Whether an agent has gone where it believes the object to be when it first sees the object or its old
+/// place.
+fn shows(look: FirstLook, scene: &Scene, seeker: AgentId) -> bool {
+    let is_false = scene.agents[seeker].awareness.sees == Sight::Start;
+    look.at_old_place == is_false && look.approach >= MIN_SEARCH
+}
+
+/// The reason for which the agent of a scene that waits, as far as the event goes, does not show its belief.
+pub(super) fn is_searched_in_vain(scene: &Scene, track: &Track) -> Option<RejectionReason> {
+    let seeker = seeker(scene)?;
+    let AgentSpec { goal, awareness, .. } = scene.agents[seeker];
+    let (object, waits, steps) = (goal.subject(), usize::from(awareness.waits), track.steps());
+    if steps <= waits {
+        let stayed = steps == waits && !search::was_moved(track, object, waits);
+        return (stayed || search::notices(track, seeker, object, steps)).then_some(RejectionReason::Unmoved);
+    }
+    let look = search::first_look(track, seeker, object, waits)?;
+    (!shows(look, scene, seeker)).then_some(RejectionReason::Unsearched)
 }
 
 fn chasing(scene: &Scene, track: &Track) -> Result<Counterfactual, RejectionReason> {

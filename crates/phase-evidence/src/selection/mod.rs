@@ -209,9 +209,9 @@ pub fn check_event(
     }
 }
 
-/// The rejection that [`check_event`] will give of every event that begins with this track and has one of the
-/// allowed lengths, where that is certain already; `None` where it is not. The rest of such an event need not
-/// be simulated.
+/// A reason for which [`check_event`] will reject every event that begins with this track and has one of the
+/// allowed lengths, where that is certain already; `None` where it is not. Asked after every step, it finds
+/// the first such step. The rest of the event need not be simulated.
 #[must_use]
 pub fn certain_rejection(
     scene: &Scene,
@@ -223,7 +223,7 @@ pub fn certain_rejection(
     if drawn::is_lifeless_however_it_goes_on(scene, track, *lengths.end()) {
         return Some(RejectionReason::Lifeless);
     }
-    drawn::is_moved_in_vain(scene, track).then_some(RejectionReason::Unmoved)
+    drawn::is_searched_in_vain(scene, track)
 }
 
 /// Distance of the goal's subject from the goal at the end (u); infinite for tracks without states.

@@ -4,11 +4,12 @@ use crate::{
     selection::{THING, TOUCH, event, facing, fetch, on_way, place, scene},
     support::{Move, track},
 };
+use core::f32::consts::PI;
 use phase_evidence::{
     Track,
     selection::{Ending, RejectionReason, certain_rejection, check_event},
 };
-use phase_model::{Attitude, EventKind, Goal, Scene};
+use phase_model::{Attitude, Awareness, EventKind, Goal, LandmarkId, ObjectId, Scene, Sight, Sign};
 use proptest::prelude::*;
 
 const ENDING: Ending = Ending::Drawn(None);
@@ -51,6 +52,44 @@ fn rest_after_success_is_certain_only_once_the_goal_is_lost() {
     assert_eq!(certain(&scene, &track.until(30)), None);
     let at = certain_at(&scene, &track);
     assert!(at.is_some_and(|at| (31..36).contains(&at)), "{at:?}");
+}
+
+/// Agent 0 waits for 30 steps in the lower left and faces down, while agent 1 carries the object from the
+/// upper left to the upper right; then it goes as `after` says, step after step.
+fn waiting(after: &[(f32, f32, f32)], sees: Sight) -> (Scene, Track) {
+    let goals = [
+        Goal::ObjectOnLandmark {
+            landmark: LandmarkId::TOP_LEFT,
+            object: ObjectId::ZERO,
+            sign: Sign::Positive,
+        },
+        THING,
+    ];
+    let mut scene = scene(EventKind::Competing, goals, Attitude::Neutral);
+    scene.agents[0].awareness = Awareness { sees, waits: 30, ..Awareness::default() };
+    let event = event(|t| {
+        let object = on_way(t, (8.0, 19.0), (23.0, 19.0), 2..28);
+        let pose = if t <= 30 { (8.0, 5.0, PI) } else { after[(t - 31).min(after.len() - 1)] };
+        Move { agents: [pose, (object.0, object.1 + 2.0, PI)], objects: vec![object], held: [None, None] }
+    });
+    (scene, event)
+}
+
+#[test]
+fn a_look_that_shows_no_belief_is_certain_at_once() {
+    let up = [(8.0, 6.0, PI), (8.0, 8.0, PI), (8.0, 8.0, 0.0)];
+    let (unaware, track) = waiting(&up, Sight::Start);
+    assert_eq!(certain_at(&unaware, &track), None);
+    let (told, track) = waiting(&up, Sight::Objects);
+    assert_eq!(certain_at(&told, &track), Some(33));
+    assert_eq!(certain(&told, &track), Some(RejectionReason::Unsearched));
+    let (mut late, track) = waiting(&up, Sight::Start);
+    late.agents[0].awareness.waits = 60;
+    assert_eq!(certain_at(&late, &track), Some(33));
+    assert_eq!(certain(&late, &track.until(33)), Some(RejectionReason::Unmoved));
+    let (mut early, track) = waiting(&up, Sight::Start);
+    early.agents[0].awareness.waits = 10;
+    assert_eq!(certain_at(&early, &track), Some(10), "the object is not in another room yet");
 }
 
 fn goals() -> impl Strategy<Value = (EventKind, [Goal; 2], Attitude)> {
