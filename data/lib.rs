@@ -75,17 +75,20 @@ pub const PHASE_500: &str = include_str!("presets/phase-500.json");
 pub const PHASE_500_V1: &str = include_str!("presets/phase-500-v1.json");
 /// Pairs of a false and a true belief (docs/reference/pairs.md).
 pub const PHASE_BELIEFS: &str = include_str!("presets/phase-beliefs.json");
+/// Events of agents that do not know each other's goals (docs/reference/dataset.md).
+pub const PHASE_MINDS: &str = include_str!("presets/phase-minds.json");
 /// Minimal pairs and triples (docs/reference/pairs.md).
 pub const PHASE_PAIRS: &str = include_str!("presets/phase-pairs.json");
 /// Training events of the same kind as those of PHASE-500.
 pub const PHASE_TRAINING: &str = include_str!("presets/phase-training.json");
 
 /// All presets by their names.
-pub const PRESETS: [(&str, &str); 6] = [
+pub const PRESETS: [(&str, &str); 7] = [
     ("demo", DEMO),
     ("phase-500", PHASE_500),
     ("phase-500-v1", PHASE_500_V1),
     ("phase-beliefs", PHASE_BELIEFS),
+    ("phase-minds", PHASE_MINDS),
     ("phase-pairs", PHASE_PAIRS),
     ("phase-training", PHASE_TRAINING),
 ];

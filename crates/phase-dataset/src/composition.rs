@@ -6,6 +6,7 @@ use crate::{
     splits::Split,
 };
 use phase_evidence::Manner;
+use phase_model::{Knowledge, Level, Scene};
 use phase_sampler::{About, Part, Stance, Variant};
 use std::collections::BTreeMap;
 
@@ -22,6 +23,19 @@ pub struct EventSlot {
     pub layouts: String,
     /// The block whose bodies it has, if it shares them.
     pub block: Option<BlockPlace>,
+    /// The level of reasoning of its agents, if they do not know each other's goals.
+    pub level: Option<Level>,
+}
+
+impl EventSlot {
+    /// A scene of this slot with the knowledge of its agents.
+    #[must_use]
+    pub fn with_knowledge(&self, mut scene: Scene) -> Scene {
+        if let Some(level) = self.level {
+            scene.agents.iter_mut().for_each(|agent| agent.awareness.knows = Knowledge::Nothing(level));
+        }
+        scene
+    }
 }
 
 /// The place of an event in a block of events that share their bodies.
@@ -58,20 +72,23 @@ pub struct Composition {
     sets: Vec<SetSlot>,
     turns: BTreeMap<Variant, usize>,
     blocks: usize,
+    levels: Vec<Level>,
 }
 
 impl Composition {
     /// The slots of a preset.
     #[must_use]
     pub fn of(preset: &Preset) -> Self {
-        let mut new = Self { slots: Vec::new(), sets: Vec::new(), turns: BTreeMap::new(), blocks: 0 };
+        let levels = preset.levels.clone();
+        let mut new = Self { slots: Vec::new(), sets: Vec::new(), turns: BTreeMap::new(), blocks: 0, levels };
         if let Some(blocks) = &preset.blocks {
             new.add_blocks(blocks);
         }
         for group in interleaved(&preset.groups, |group| group.events) {
             let PresetGroup { variant, split, ref layouts, .. } = *group;
             let goal_index = new.turn(variant);
-            new.slots.push(EventSlot { variant, goal_index, split, layouts: layouts.clone(), block: None });
+            let layouts = layouts.clone();
+            new.slots.push(EventSlot { variant, goal_index, split, layouts, block: None, level: None });
         }
         for (goal_index, group) in interleaved(&preset.sets, |group| group.sets).into_iter().enumerate() {
             let SetGroup { stances, about, split, layouts, .. } = group.clone();
@@ -123,7 +140,7 @@ impl Composition {
                 let goal_index = self.turn(variant);
                 let split = group.split;
                 let layouts = group.layouts.clone();
-                self.slots.push(EventSlot { variant, goal_index, split, layouts, block });
+                self.slots.push(EventSlot { variant, goal_index, split, layouts, block, level: None });
             }
             self.blocks = number + 1;
         }
@@ -147,7 +164,10 @@ impl Composition {
             first: place.first + round * self.slots.len(),
             ..place
         });
-        EventSlot { goal_index: slot.goal_index + round * turns, block, ..slot.clone() }
+        let goal_index = slot.goal_index + round * turns;
+        let turn = block.map_or(goal_index, |place| place.block);
+        let level = self.levels.get(turn % self.levels.len().max(1)).copied();
+        EventSlot { goal_index, block, level, ..slot.clone() }
     }
 
     /// The events that share bodies with one of them, in order.

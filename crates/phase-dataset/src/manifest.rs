@@ -14,7 +14,7 @@ use phase_files::{
     checksum::{FileEntry, sha256_hex},
     json,
 };
-use phase_model::{AGENT_COUNT, EventKind, Goal, Relation, json::check_format};
+use phase_model::{AGENT_COUNT, EventKind, Goal, Level, Relation, json::check_format};
 use phase_sampler::Variant;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
@@ -132,6 +132,9 @@ pub struct AgentEntry {
     pub goal: Goal,
     /// Social utility weight: −1, 0 or 1.
     pub alpha: i8,
+    /// Level of reasoning, if it does not know the other's goal.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub level: Option<Level>,
     /// Whether the goal was reached; see [`GoalOutcome`].
     pub reached: bool,
     /// Steps until it was reached, for positive goals.
@@ -161,6 +164,7 @@ impl EventEntry {
                 strength_level: spec.strength.level(),
                 goal: spec.goal,
                 alpha: spec.attitude.alpha(),
+                level: spec.awareness.knows.level(),
                 reached: outcome.reached,
                 steps_to_goal: outcome.steps,
             }
@@ -177,7 +181,7 @@ impl EventEntry {
             agents: core::array::from_fn(agent),
             object_size_levels: scene.objects.iter().map(|object| object.size.level()).collect(),
             steps: event.steps.len(),
-            manners: Manner::shown(scene, &track),
+            manners: Manner::of_event(event, &track),
             event: json,
             video,
         }

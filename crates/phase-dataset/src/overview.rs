@@ -9,7 +9,7 @@ use crate::{
     splits::Split,
 };
 use phase_files::checksum::FileEntry;
-use phase_model::EventKind;
+use phase_model::{EventKind, Level};
 use serde_json::Value;
 use std::collections::BTreeMap;
 
@@ -35,6 +35,8 @@ pub struct Overview {
     pub events: usize,
     /// Number of events of each kind that occurs.
     pub kinds: BTreeMap<EventKind, usize>,
+    /// Number of agents that do not know the other's goal, by level of reasoning.
+    pub levels: BTreeMap<Level, usize>,
     /// Number of events in each part that is not empty.
     pub splits: BTreeMap<Split, usize>,
     /// Number of sets of events that differ in one social variable.
@@ -59,6 +61,7 @@ impl Overview {
             selection: Vec::new(),
             events: 0,
             kinds: BTreeMap::new(),
+            levels: BTreeMap::new(),
             splits: BTreeMap::new(),
             sets: 0,
             videos: false,
@@ -79,6 +82,7 @@ impl Overview {
             selection: manifest.selection.clone(),
             events: 0,
             kinds: BTreeMap::new(),
+            levels: BTreeMap::new(),
             splits: BTreeMap::new(),
             sets: manifest.sets.len(),
             videos: false,
@@ -92,6 +96,9 @@ impl Overview {
     pub fn count(&mut self, entry: &EventEntry) {
         self.events += 1;
         *self.kinds.entry(entry.kind).or_default() += 1;
+        for level in entry.agents.iter().filter_map(|agent| agent.level) {
+            *self.levels.entry(level).or_default() += 1;
+        }
         *self.splits.entry(entry.split()).or_default() += 1;
         self.videos |= entry.video.is_some();
     }

@@ -4,7 +4,7 @@ use crate::splits::Split;
 use phase_event::check_id;
 use phase_files::{FileError, Problem};
 use phase_model::{
-    Layout, Relation,
+    Layout, Level, Relation,
     json::parse_as,
     layout::USED_BASES,
     random::{self, Purpose},
@@ -41,6 +41,10 @@ pub struct Preset {
     pub seed: u64,
     /// Names for sets of base layouts; each is used unchanged and in its four reflections.
     pub layouts: BTreeMap<String, Vec<u8>>,
+    /// Levels of reasoning of agents that do not know each other's goals: entry b is that of block b or, if
+    /// there are no blocks, of event b of each variant; the list repeats. If it is empty, all agents know.
+    #[serde(default)]
+    pub levels: Vec<Level>,
     /// Conditions that an event has to satisfy; without them the first scene drawn is accepted.
     pub selection: Option<Selection>,
     /// Composition of a dataset in which each event has bodies of its own.
@@ -195,6 +199,9 @@ impl Preset {
                         equally long"
                     .into(),
             );
+        }
+        if !self.sets.is_empty() && !self.levels.is_empty() {
+            return Err("`levels` need `groups` or `blocks`: agents of `sets` know each other's goals".into());
         }
         self.check_counts().map_err(|error| error.to_string())?;
         let events = self.events();

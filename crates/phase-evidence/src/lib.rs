@@ -4,14 +4,14 @@
 //! [`mod@holding`] which agent held what and when, [`mod@contact`] which entities touched, [`mod@blocking`]
 //! which agent obstructed the other, [`mod@pursuit`] which agent pursued the other, [`mod@exploration`] which
 //! region an agent explored first, [`mod@search`] where it looks for what was moved, [`mod@motion`] how fast
-//! and how far an agent moved and [`mod@rest`] how
-//! quietly an event ended. [`Parting`](parting::Parting) tells where two events that begin alike part, and
-//! [`Effect`] compares an event with the same one in which an agent did nothing, which distinguishes help
-//! from mere presence. [`mod@selection`] checks whether an event shows its label: whether the intended social
+//! and how far an agent moved and [`mod@rest`] how quietly an event ended. [`Parting`](parting::Parting) tells
+//! where two events that begin alike part, and [`Effect`] compares an event with the same one in which an
+//! agent did nothing, which distinguishes help from mere presence. [`mod@selection`] checks whether an event shows its label: whether the intended social
 //! event is visible in it, and [`Narrative`] tells an event in words.
 //!
 //! Key design decision: evidence does not depend on intentions. An event in which helping was intended but
-//! had no effect shows no help. The same functions therefore serve simulated events, measured recordings
+//! had no effect shows no help. Only [`Discovery`], of an agent that finds out what the other wants, reads
+//! thoughts. The same functions therefore serve simulated events, measured recordings
 //! (which contain neither grips nor contacts; outlines replace contacts) and predicted ones. The trade-off
 //! is that what happens between two steps, a quarter of a second apart, is not seen.
 //!
@@ -45,6 +45,7 @@
 pub mod blocking;
 pub mod clarity;
 pub mod contact;
+pub mod discovery;
 pub mod effect;
 pub mod exploration;
 pub mod holding;
@@ -60,6 +61,7 @@ pub mod selection;
 pub mod track;
 
 pub use clarity::Clarity;
+pub use discovery::Discovery;
 pub use effect::Effect;
 pub use manner::Manner;
 pub use motion::{MotionStatistics, VideoMotion};

@@ -1,12 +1,13 @@
 //! In what manner an agent helped or hindered the other, or met it.
 
-use crate::{GoalOutcome, Track, blocking, contact, holding, outcome};
+use crate::{Discovery, GoalOutcome, Track, blocking, contact, holding, outcome};
+use phase_event::Event;
 use phase_model::{AgentId, Attitude, Entity, EventKind, Goal, ObjectId, Scene, State};
 use phase_navigation::Map;
 use serde::{Deserialize, Serialize};
 
 /// Behaviour that makes the kind of a social event visible. Judged by motion and grips, whatever was
-/// intended.
+/// intended; only the last two, in which an agent finds out what the other wants, are judged by its thoughts.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Manner {
@@ -32,6 +33,10 @@ pub enum Manner {
     Undoing,
     /// Two with goals of their own pass the same place within two seconds.
     Crossing,
+    /// The helper or hinderer does not know the other's goal and watches for two seconds before it acts.
+    WatchingFirst,
+    /// The helper or hinderer acts on a wrong idea of what the other wants, and then on the right one.
+    Correcting,
 }
 
 /// Minimum duration for something to be seen (steps).
@@ -53,7 +58,7 @@ const MIN_CROSSING_PATH: f32 = 2.0;
 
 impl Manner {
     /// All manners, by kind of event.
-    pub const ALL: [Self; 11] = [
+    pub const ALL: [Self; 13] = [
         Self::Fetching,
         Self::HandingOver,
         Self::CarryingAlong,
@@ -65,6 +70,8 @@ impl Manner {
         Self::Hiding,
         Self::Undoing,
         Self::Crossing,
+        Self::WatchingFirst,
+        Self::Correcting,
     ];
 
     /// The name used in files.
@@ -82,19 +89,33 @@ impl Manner {
             Self::Hiding => "hiding",
             Self::Undoing => "undoing",
             Self::Crossing => "crossing",
+            Self::WatchingFirst => "watching-first",
+            Self::Correcting => "correcting",
         }
     }
 
-    /// The manners that an event shows; several may apply, and none where the kind of event has no manners.
+    /// The manners that a simulated event shows: those of its motion, and those of an agent that finds out
+    /// what the other wants.
+    #[must_use]
+    pub fn of_event(event: &Event, track: &Track) -> Vec<Self> {
+        let mut manners = Self::shown(&event.scene, track);
+        if let Some(discovery) = Discovery::of(event) {
+            manners.extend(discovery.watches_first().then_some(Self::WatchingFirst));
+            manners.extend(discovery.corrects_itself().then_some(Self::Correcting));
+        }
+        manners
+    }
+
+    /// The manners that motion shows; several may apply, and none where the kind of event has no manners.
     #[must_use]
     pub fn shown(scene: &Scene, track: &Track) -> Vec<Self> {
         Self::ALL.into_iter().filter(|manner| manner.is_shown(scene, track)).collect()
     }
 
-    /// Whether an event shows this manner.
+    /// Whether motion shows this manner; never for those that only thoughts tell.
     #[must_use]
     pub fn is_shown(self, scene: &Scene, track: &Track) -> bool {
-        if self.kind() != scene.kind {
+        if self.kind() != Some(scene.kind) {
             return false;
         }
         let social = social_agent(scene);
@@ -115,13 +136,14 @@ impl Manner {
             Self::Hiding => object.is_some_and(|it| hidden(track, social, it, goal)),
             Self::Undoing => undone(track, social, goal),
             Self::Crossing => crossed(track),
+            Self::WatchingFirst | Self::Correcting => false,
         }
     }
 
-    /// The kind of event that it is a manner of.
+    /// The kind of event that it is a manner of; `None` for those both of helping and of hindering.
     #[must_use]
-    pub const fn kind(self) -> EventKind {
-        match self {
+    pub const fn kind(self) -> Option<EventKind> {
+        Some(match self {
             Self::Fetching | Self::HandingOver | Self::CarryingAlong | Self::Clearing | Self::MakingWay => {
                 EventKind::Helping
             }
@@ -129,7 +151,8 @@ impl Manner {
                 EventKind::Hindering
             }
             Self::Crossing => EventKind::Independent,
-        }
+            Self::WatchingFirst | Self::Correcting => return None,
+        })
     }
 }
 

@@ -260,5 +260,7 @@ pub const fn manner_in_words(manner: Manner) -> &'static str {
         Manner::Hiding => "the hinderer carries the object off before the other has touched it",
         Manner::Undoing => "the hinderer undoes what the other has achieved",
         Manner::Crossing => "the two cross each other's way",
+        Manner::WatchingFirst => "one watches until it knows what the other wants",
+        Manner::Correcting => "one is wrong about what the other wants at first, and corrects itself",
     }
 }

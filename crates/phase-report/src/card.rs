@@ -8,7 +8,7 @@ use phase_dataset::{
     parquet::{self, FOLDER},
     splits::Split,
 };
-use phase_model::{EventKind, words};
+use phase_model::{EventKind, Level, words};
 
 const PAGE: &str = "| `index.html` | opens in a browser, offline, and shows every video with its labels |\n";
 const VIDEO_TABLE: &str = "| `videos/metadata.csv` | their labels, for `load_dataset(\"videofolder\", data_dir=\".../videos\")` |\n";
@@ -39,7 +39,7 @@ pub fn card(overview: &Overview, command: &str, shortcuts: &str) -> String {
          ```python\nfrom datasets import load_dataset\n\nevents = load_dataset(\"path/to/this/folder\")\n```\n\n\
          ## What is in it\n\n\
          | kind | events | what it is meant to show |\n|---|---|---|\n{kinds}\n\
-         {splits}\
+         {splits}{knowledge}\
          | file | what it is |\n|---|---|\n\
          {page}| `{FOLDER}/*.parquet` | every event as a row, by split; the columns are below |\n\
          | `events/<id>.json` | format `phase-events/1`: the same and every thought of the agents |\n\
@@ -79,6 +79,7 @@ pub fn card(overview: &Overview, command: &str, shortcuts: &str) -> String {
         about = about(),
         kinds = kinds(overview),
         splits = splits(overview),
+        knowledge = knowledge(overview),
         columns = columns(),
         selected = selected(overview),
         generator = overview.generator,
@@ -138,6 +139,25 @@ fn kinds(overview: &Overview) -> String {
 fn splits(overview: &Overview) -> String {
     let line = |(split, count): (&Split, &usize)| format!("| {} | {count} |\n", split.name());
     format!("| split | events |\n|---|---|\n{}\n", overview.splits.iter().map(line).collect::<String>())
+}
+
+/// The agents that do not know the other's goal, if there are any.
+fn knowledge(overview: &Overview) -> String {
+    if overview.levels.is_empty() {
+        return String::new();
+    }
+    let line = |(&level, count): (&Level, &usize)| {
+        let reasoning = match level {
+            Level::Zero => "ignores the other's mind",
+            Level::One => "infers the other's goal from what it sees the other do",
+            Level::Two => "infers it, and assumes that the other infers, too",
+        };
+        format!("| {} | {count} | {reasoning} |\n", u8::from(level))
+    };
+    format!(
+        "| level of reasoning | agents that do not know the other's goal | reasoning |\n|---|---|---|\n{}\n",
+        overview.levels.iter().map(line).collect::<String>()
+    )
 }
 
 fn columns() -> String {

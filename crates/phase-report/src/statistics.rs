@@ -5,7 +5,7 @@ use phase_dataset::{
     manifest::Manifest,
     splits::{self, Split},
 };
-use phase_model::{EventKind, Relation, arena::STEP_VIDEO_SECONDS};
+use phase_model::{EventKind, Level, Relation, arena::STEP_VIDEO_SECONDS};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// The composition of a dataset.
@@ -21,6 +21,8 @@ pub struct Statistics {
     pub relations: BTreeMap<Relation, usize>,
     /// Number of events of each kind.
     pub kinds: BTreeMap<EventKind, usize>,
+    /// Number of agents that do not know the other's goal, by level of reasoning.
+    pub levels: BTreeMap<Level, usize>,
     /// Number of different layouts.
     pub layouts: usize,
     /// Number of events in each part, and numbers of test events in unseen layouts and of a type of their
@@ -60,6 +62,7 @@ impl Statistics {
             goals: goal_counts(agents),
             relations: counts(events.iter().map(|event| event.relation)),
             kinds: counts(events.iter().map(|event| event.kind)),
+            levels: counts(events.iter().flat_map(|event| &event.agents).filter_map(|agent| agent.level)),
             layouts: layouts.len(),
             parts,
         }

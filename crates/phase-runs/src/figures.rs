@@ -68,16 +68,18 @@ impl EventFigures {
     #[must_use]
     pub fn value(&self) -> Value {
         let Self { statistics, selection, audit, motions, .. } = self;
-        let Statistics { events, lengths, goals, relations, kinds, layouts, .. } = statistics;
+        let Statistics { events, lengths, goals, relations, kinds, levels, layouts, .. } = statistics;
         let figure =
             |row: &StatisticsRow| json!({ "figure": row.what, "paper": row.paper, "here": row.ours });
         let figures: Vec<Value> = statistics.figures().iter().map(figure).collect();
         let kinds: BTreeMap<&str, usize> = kinds.iter().map(|(kind, &count)| (kind.name(), count)).collect();
+        let levels: BTreeMap<String, usize> =
+            levels.iter().map(|(&level, &count)| (u8::from(level).to_string(), count)).collect();
         let shortcuts = audit.as_ref().map(shortcuts::value);
         json!({
             "events": events, "figures": figures, "lengths": lengths, "goals": goals, "relations": relations,
-            "kinds": kinds, "layouts": layouts, "selection": selection, "shortcuts": shortcuts,
-            "motion": motions.value(), "clarity": motions.clarity_value(),
+            "kinds": kinds, "levels": levels, "layouts": layouts, "selection": selection,
+            "shortcuts": shortcuts, "motion": motions.value(), "clarity": motions.clarity_value(),
         })
     }
 
@@ -92,6 +94,11 @@ impl EventFigures {
             "events",
             statistics.kinds.iter().map(|(kind, &count)| (kind.name().into(), count)),
         );
+        if !statistics.levels.is_empty() {
+            let levels = statistics.levels.iter();
+            let levels = levels.map(|(&level, &count)| (u8::from(level).to_string(), count));
+            text += &list("level of reasoning", "agents that do not know the other's goal", levels);
+        }
         if !selection.is_empty() {
             text += &format!("\n{}", acceptance::table(selection));
         }
@@ -180,11 +187,15 @@ fn statistics(path: &Path, listener: &dyn Listener) -> Result<(Statistics, Vec<A
     let mut lengths = BTreeMap::new();
     let mut relations = BTreeMap::new();
     let mut kinds = BTreeMap::new();
+    let mut levels = BTreeMap::new();
     for index in 0..source.len() {
         let recording = source.load(index)?;
         let Scene { layout, kind, agents: specs, .. } = &recording.scene;
         agents.extend(specs.each_ref().map(|agent| (agent.goal, agent.attitude.alpha())));
         layouts.insert((layout.base(), layout.flip()));
+        for level in specs.iter().filter_map(|agent| agent.awareness.knows.level()) {
+            *levels.entry(level).or_default() += 1;
+        }
         *lengths.entry(recording.trajectory.steps()).or_default() += 1;
         *relations.entry(recording.relation).or_default() += 1;
         *kinds.entry(*kind).or_default() += 1;
@@ -192,7 +203,7 @@ fn statistics(path: &Path, listener: &dyn Listener) -> Result<(Statistics, Vec<A
     let events = source.len();
     let goals = goal_counts(agents);
     let layouts = layouts.len();
-    Ok((Statistics { events, lengths, goals, relations, kinds, layouts, parts: None }, Vec::new()))
+    Ok((Statistics { events, lengths, goals, relations, kinds, levels, layouts, parts: None }, Vec::new()))
 }
 
 fn list(what: &str, counted: &str, rows: impl Iterator<Item = (String, usize)>) -> String {

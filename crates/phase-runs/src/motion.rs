@@ -126,8 +126,11 @@ impl Motions {
             let scene = &recording.scene;
             let kind = scene.kind.name();
             let variant = entry.and_then(|entry| entry.variant).map(|it| format!("{kind}, {}", it.name()));
-            let manners = Manner::shown(scene, &track).into_iter();
-            let manners = manners.map(|manner| format!("{kind}, seen: {}", manner.name()));
+            let manners = match &recording.simulation {
+                Some(simulation) => Manner::of_event(&simulation.event, &track),
+                None => Manner::shown(scene, &track),
+            };
+            let manners = manners.into_iter().map(|manner| format!("{kind}, seen: {}", manner.name()));
             let groups = iter::once(kind.to_owned()).chain(variant).chain(manners).collect();
             let (id, relation) = (recording.id.clone(), recording.relation);
             let row = VideoMotion::of(&track).zip(Clarity::of(scene, &track));

@@ -16,6 +16,8 @@ fn scenes_of_every_preset_are_valid_and_on_its_layouts() {
             assert!(layouts.contains(&scene.layout), "{name}, seed {seed}: {:?}", scene.layout);
             assert_eq!(any_scene(&preset, seed).expect("again"), scene, "{name}: a seed is a scene");
             kinds.insert(scene.kind);
+            let unaware = scene.agents.iter().filter(|agent| agent.awareness.knows.level().is_some()).count();
+            assert_eq!(unaware, if name == "phase-minds" { 2 } else { 0 }, "{name}, seed {seed}");
         }
         // Sets about beliefs are of one kind.
         let wanted = if name == "phase-beliefs" { 1 } else { 2 };

@@ -18,7 +18,8 @@ pub struct GenDataset {
     /// Dataset to generate: demo (twelve events, two of each kind, without selection), phase-500 (the paper's
     /// composition, selected), phase-500-v1 (the first edition's), phase-training (as many training events of
     /// the same kind as requested), phase-pairs (sets that differ in one social variable), phase-beliefs
-    /// (pairs of a false and a true belief), or a file in the format phase-preset/3 whose name ends in .json
+    /// (pairs of a false and a true belief), phase-minds (agents that do not know each other's goals), or a
+    /// file in the format phase-preset/3 whose name ends in .json
     #[arg(long, default_value = "demo")]
     pub preset: String,
     /// Number of events, 1 to 1000000 [default: the preset's]

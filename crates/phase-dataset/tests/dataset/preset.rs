@@ -1,13 +1,13 @@
 //! Presets and the slots they consist of.
 
-use phase_data::{DEMO, PHASE_500, PHASE_500_V1, PHASE_TRAINING};
+use phase_data::{DEMO, PHASE_500, PHASE_500_V1, PHASE_MINDS, PHASE_PAIRS, PHASE_TRAINING};
 use phase_dataset::{
     composition::{Composition, EventSlot},
     labels::goal_counts,
     preset::{Ends, Preset, Selection},
     splits::Split,
 };
-use phase_model::{AGENT_COUNT, EventKind, Relation};
+use phase_model::{AGENT_COUNT, EventKind, Level, Relation};
 use phase_sampler::Variant;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -190,6 +190,45 @@ fn no_manner_is_rare() {
     }
 }
 
+/// The level of reasoning says nothing of kind and relation: all events of a block share it.
+#[test]
+fn levels_are_the_same_for_all_kinds() {
+    let preset = Preset::parse("minds", PHASE_MINDS).expect("a preset");
+    assert_eq!(preset.events(), 250);
+    let slots = slots(&preset, 500);
+    let count = |kind: EventKind, level: Level| {
+        let same = |slot: &&EventSlot| slot.variant.kind() == kind && slot.level == Some(level);
+        slots.iter().filter(same).count()
+    };
+    for (level, events) in [(Level::Zero, 10), (Level::One, 70), (Level::Two, 20)] {
+        for kind in
+            [EventKind::Helping, EventKind::Hindering, EventKind::Collaborating, EventKind::Independent]
+        {
+            assert_eq!(count(kind, level), events, "{kind:?}, {level:?}");
+        }
+    }
+    for (split, events) in [(Split::Train, 160), (Split::Validation, 40), (Split::Test, 50)] {
+        assert_eq!(slots[..250].iter().filter(|slot| slot.split == Some(split)).count(), events, "{split:?}");
+    }
+    let slot = slots.iter().find(|slot| slot.level == Some(Level::Two)).expect("a slot");
+    let mut random = phase_model::random::stream(1, phase_model::random::Purpose::Scene, 0);
+    let scene = phase_sampler::sample_variant(Variant::Carry, &mut random).expect("a scene");
+    assert!(scene.agents.iter().all(|agent| agent.awareness.knows.level().is_none()));
+    let scene = slot.with_knowledge(scene);
+    assert!(scene.agents.iter().all(|agent| agent.awareness.knows.level() == Some(Level::Two)));
+
+    // Older presets have none, and in one without blocks the events of a variant take turns.
+    assert!(
+        self::slots(&Preset::parse("old", PHASE_500).expect("a preset"), 500)
+            .iter()
+            .all(|it| it.level.is_none())
+    );
+    let turns = DEMO.replace("\"seed\"", "\"levels\": [2, 0], \"seed\"");
+    let turns = self::slots(&Preset::parse("turns", &turns).expect("a preset"), 24);
+    let chases = turns.iter().filter(|slot| slot.variant == Variant::Chase).map(|slot| slot.level);
+    assert_eq!(chases.collect::<Vec<_>>(), [Some(Level::Two), Some(Level::Zero)].repeat(2));
+}
+
 #[test]
 fn what_is_no_preset_is_refused() {
     let nothing = DEMO.split("\"groups\"").next().unwrap_or_default().to_owned() + "\"groups\": []}";
@@ -201,6 +240,8 @@ fn what_is_no_preset_is_refused() {
         (&nothing, "groups"),
         (&DEMO.replace("\"lift\"", "\"dance\""), "dance"),
         (&DEMO.replace("\"seed\"", "\"sead\""), "sead"),
+        (&DEMO.replace("\"seed\"", "\"levels\": [3], \"seed\""), "0, 1 or 2"),
+        (&PHASE_PAIRS.replace("\"seed\"", "\"levels\": [1], \"seed\""), "`levels` need"),
         (&DEMO.replace("{\"all\"", "{\"most\""), "all"),
         (&DEMO.replace("[0, 2", "[1, 2"), "base 1"),
         (&DEMO.replace("\"demo\"", "\"../demo\""), "name"),

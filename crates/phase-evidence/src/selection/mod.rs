@@ -9,8 +9,9 @@ mod common;
 mod drawn;
 mod kinds;
 
-use crate::{Effect, GoalOutcome, Manner, Track, contact};
+use crate::{Discovery, Effect, GoalOutcome, Manner, Track, contact};
 use core::ops::RangeInclusive;
+use phase_event::Event;
 use phase_model::{AgentId, Attitude, Entity, Goal, Scene, Sign};
 use serde::{Deserialize, Serialize};
 
@@ -63,13 +64,15 @@ pub enum RejectionReason {
     Unmoved,
     /// The agent that waited did not go where it believes the object to be, or did not look there first.
     Unsearched,
+    /// A helper or hinderer that has to find out the other's goal hardly acted on the right one.
+    Mistaken,
     /// Without the agent that is to make a difference the result would have been the same.
     NoEffect,
 }
 
 impl RejectionReason {
     /// All reasons, in the order in which they are checked.
-    pub const ALL: [Self; 20] = [
+    pub const ALL: [Self; 21] = [
         Self::TooShort,
         Self::TooLong,
         Self::Restless,
@@ -89,6 +92,7 @@ impl RejectionReason {
         Self::OtherManner,
         Self::Unmoved,
         Self::Unsearched,
+        Self::Mistaken,
         Self::NoEffect,
     ];
 
@@ -115,6 +119,7 @@ impl RejectionReason {
             Self::OtherManner => "other-manner",
             Self::Unmoved => "unmoved",
             Self::Unsearched => "unsearched",
+            Self::Mistaken => "mistaken",
             Self::NoEffect => "no-effect",
         }
     }
@@ -207,6 +212,15 @@ pub fn check_event(
         }
         Ending::Drawn(manner) => drawn::judge(scene, track, manner),
     }
+}
+
+/// Checks that a helper or hinderer that has to find out the other's goal acts on the right one.
+///
+/// # Errors
+/// [`RejectionReason::Mistaken`].
+pub fn check_discovery(event: &Event) -> Result<(), RejectionReason> {
+    let finds = Discovery::of(event).is_none_or(|discovery| discovery.succeeds());
+    if finds { Ok(()) } else { Err(RejectionReason::Mistaken) }
 }
 
 /// A reason for which [`check_event`] will reject every event that begins with this track and has one of the

@@ -3,6 +3,7 @@
 mod certain;
 mod clarity;
 mod contact;
+mod discovery;
 mod drawn;
 mod effect;
 mod exploration;

@@ -270,6 +270,9 @@ fn agent(who: AgentId, agent: &AgentEntry) -> String {
         Attitude::Neutral => String::new(),
         social => format!(" <strong>{}</strong> {other}:", words::attitude(social)),
     };
+    let knowledge = agent.level.map_or_else(String::new, |level| {
+        format!(", does not know the other's goal, level {}", u8::from(level))
+    });
     let goal: String = words::wants_to(agent.goal, who).into_iter().map(chip).collect();
     let outcome = match (agent.reached, agent.steps_to_goal) {
         (true, Some(steps)) => {
@@ -282,7 +285,7 @@ fn agent(who: AgentId, agent: &AgentEntry) -> String {
         (false, _) => "<span class=\"no\">not done</span>".into(),
     };
     format!(
-        "<li>{me} <span class=\"body\">{size}, {strength}</span>{stance} wants to {goal} {outcome}\
+        "<li>{me} <span class=\"body\">{size}, {strength}{knowledge}</span>{stance} wants to {goal} {outcome}\
          <div class=\"now\" data-agent=\"{who}\"{done}><span class=\"label\">now</span> \
          <span class=\"subgoal\">–</span> <span class=\"share\"></span></div></li>\n",
         done = agent.steps_to_goal.map_or_else(String::new, |steps| format!(" data-done=\"{steps}\"")),

@@ -24,6 +24,16 @@ fn the_card_names_command_kinds_and_licence() {
 }
 
 #[test]
+fn agents_that_do_not_know_the_others_goal_are_counted() {
+    let mut manifest = example();
+    assert!(!card(&manifest, "", "").contains("level of reasoning"));
+    manifest.events[0].agents.iter_mut().for_each(|agent| agent.level = Some(phase_model::Level::Two));
+    assert!(
+        card(&manifest, "", "").contains("\n| 2 | 2 | infers it, and assumes that the other infers, too |\n")
+    );
+}
+
+#[test]
 fn the_front_matter_names_the_splits_there_are() {
     let mut manifest = example();
     let front = |card: &str| card.split("---\n").nth(1).expect("front matter").to_owned();

@@ -42,13 +42,15 @@ pub fn any_scene(preset: &Preset, seed: u64) -> Result<Scene, SampleError> {
         let mut scenes = contrast(&set, &preset.pool(&set.layouts), starts, &mut random)?.scenes;
         return Ok(scenes.swap_remove(random.random_range(0..set.stances.len())));
     }
-    let EventSlot { variant, goal_index, layouts, block, .. } = composition.slot(index);
-    let layouts = preset.pool(&layouts);
-    let Some(place) = block else {
-        return sample(&Request { variant, goal_index, layouts: &layouts, starts }, &mut random);
+    let slot = composition.slot(index);
+    let EventSlot { variant, goal_index, ref layouts, block, .. } = slot;
+    let layouts = preset.pool(layouts);
+    let scene = match block {
+        Some(place) => Stage::sample(&composition.parts(place), &layouts, starts, &mut random)?
+            .scene(Part { variant, goal_index }, &mut random)?,
+        None => sample(&Request { variant, goal_index, layouts: &layouts, starts }, &mut random)?,
     };
-    let stage = Stage::sample(&composition.parts(place), &layouts, starts, &mut random)?;
-    stage.scene(Part { variant, goal_index }, &mut random)
+    Ok(slot.with_knowledge(scene))
 }
 
 fn contrast(
@@ -98,12 +100,14 @@ impl<'a> Scenes<'a> {
         let mut random = random::stream(seed, Purpose::Scene, 0);
         let variant = slot.variant;
         let goal_index = slot.goal_index;
-        let Some(place) = slot.block else {
-            let request = Request { variant, goal_index, layouts, starts: self.starts };
-            return sample(&request, &mut random);
+        let scene = match slot.block {
+            Some(place) => {
+                let stage = self.stage(place, layouts, number / ATTEMPTS_PER_STAGE)?;
+                stage.scene(Part { variant, goal_index }, &mut random)?
+            }
+            None => sample(&Request { variant, goal_index, layouts, starts: self.starts }, &mut random)?,
         };
-        let stage = self.stage(place, layouts, number / ATTEMPTS_PER_STAGE)?;
-        stage.scene(Part { variant, goal_index }, &mut random)
+        Ok(slot.with_knowledge(scene))
     }
 
     /// The scenes of an attempt at a set, in the order of its stances.

@@ -22,7 +22,7 @@ use phase_dataset::{
 use phase_event::{Event, Step, mean_state};
 use phase_evidence::{
     Track,
-    selection::{Counterfactual, Ending, RejectionReason, certain_rejection, check_event},
+    selection::{Counterfactual, Ending, RejectionReason, certain_rejection, check_discovery, check_event},
 };
 use phase_files::{FileError, folder::Folder};
 use phase_model::{AgentId, Scene};
@@ -309,7 +309,8 @@ impl<'a> Watch<'a> {
         }
         let event = event?;
         let checked = match self.required {
-            Some((lengths, ending)) => check_event(&event.scene, &self.track, lengths, ending),
+            Some((lengths, ending)) => check_event(&event.scene, &self.track, lengths, ending)
+                .and_then(|counterfactual| check_discovery(&event).map(|()| counterfactual)),
             None => Ok(None),
         };
         Some(checked.map(|counterfactual| ShownEvent { event, track: self.track, counterfactual }))
