@@ -21,6 +21,7 @@ pub const PACKAGES: [(&str, &[(&str, &str)]); 4] = [
                 "check-track",
                 "Compare tracks with the motion in videos of known events that are drawn in several styles",
             ),
+            ("fit-beliefs", "Fit how strongly actions tell SIMPLE what agents know"),
             ("fit-forecast", "Fit how SIMPLE combines simulated futures"),
             ("fit-inference", "Fit how SIMPLE weighs its evidence to events whose labels are known"),
             ("fit-minds", "Fit the parameters of the minds to recordings or events whose labels are known"),

@@ -59,6 +59,7 @@
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 
+mod ascribed;
 mod belief;
 mod consistency;
 mod contest;
@@ -67,6 +68,7 @@ mod predict;
 mod resampling;
 mod weights;
 
+pub use ascribed::{AscribedBelief, Glance};
 pub use belief::{Belief, PARTICLE_COUNT, overwrite};
 pub use contest::Contest;
 pub use memory::{AGENT_DECAY_STEPS, CellMemory, OBJECT_DECAY_STEPS, occupancy_weight};

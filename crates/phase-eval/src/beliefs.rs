@@ -1,7 +1,7 @@
 //! Scores of beliefs: where each agent believes each entity to be.
 
 use crate::{Estimate, goals::Calibration};
-use phase_event::{Beliefs, PLACES, Whereabouts, others};
+use phase_event::{BeliefOrder, Beliefs, PLACES, Whereabouts, others};
 use phase_model::AgentId;
 use phase_statistics::mean;
 use serde::{Deserialize, Serialize};
@@ -28,9 +28,11 @@ pub struct BeliefQuestion {
     pub agent: AgentId,
     /// Number of the entity: 0 and 1 are the agents, 2 and 3 the objects.
     pub entity: usize,
-    /// Whether the agent does not see it.
+    /// Whether the agent does not see it; of beliefs about beliefs, whether it is not certain that the other
+    /// does.
     pub unseen: bool,
-    /// Whether it is not seen and in another room than when the agent could last see it, or at the start.
+    /// Whether it is not seen and in another room than when the agent, or the other, could last see it, or at
+    /// the start.
     pub moved: bool,
     /// The belief.
     pub truth: Whereabouts,
@@ -57,6 +59,8 @@ impl BeliefQuestion {
 pub struct BeliefEvent {
     /// Its name.
     pub id: String,
+    /// The beliefs that are asked about.
+    pub order: BeliefOrder,
     /// Every question.
     pub questions: Vec<BeliefQuestion>,
     /// CPU time of the answers (s), if measured.
@@ -75,6 +79,7 @@ impl BeliefEvent {
     /// # Errors
     /// A sentence, if the answers have another form, or are no probabilities.
     pub fn questions(
+        order: BeliefOrder,
         steps: &[usize],
         objects: usize,
         truth: &[Beliefs],
@@ -87,11 +92,11 @@ impl BeliefEvent {
         let mut questions = Vec::new();
         for ((&step, truth), answer) in steps.iter().zip(truth).zip(answers) {
             for agent in AgentId::ALL {
-                let count = others(agent, objects).count();
+                let count = others(order.viewer(agent), objects).count();
                 if answer[agent].len() != count {
                     return Err(format!("agent {agent} has beliefs about {count} entities"));
                 }
-                for (k, entity) in others(agent, objects).enumerate() {
+                for (k, entity) in others(order.viewer(agent), objects).enumerate() {
                     let (truth, answer) = (truth[agent][k], answer[agent][k]);
                     let sum: f64 = answer.iter().sum();
                     if (sum - 1.0).abs() > 1e-6 || answer.iter().any(|p| !(0.0..=1.0 + 1e-9).contains(p)) {
@@ -135,6 +140,8 @@ pub struct BeliefScores {
 pub struct BeliefSummary {
     /// Events.
     pub n: usize,
+    /// The beliefs that were asked about.
+    pub order: BeliefOrder,
     /// About all entities.
     pub all: Option<BeliefScores>,
     /// About those that the agent does not see.
@@ -152,8 +159,9 @@ impl BeliefSummary {
     pub fn of(events: &[BeliefEvent], seed: u64) -> Option<Self> {
         let scores = |asked: fn(&BeliefQuestion) -> bool| scores(events, seed, asked);
         let times: Vec<f64> = events.iter().filter_map(|event| event.cpu_seconds).collect();
-        (!events.is_empty()).then(|| Self {
+        events.first().map(|first| Self {
             n: events.len(),
+            order: first.order,
             all: scores(|_| true),
             unseen: scores(|it| it.unseen),
             moved: scores(|it| it.moved),

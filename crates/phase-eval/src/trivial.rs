@@ -1,8 +1,8 @@
 //! Trivial baselines: the scores that are reached without perception.
 
 use phase_event::{
-    BeliefReader, Beliefs, Forecaster, MethodResult, ObservedEvent, Prediction, ProgressCallback, Recogniser,
-    SEEN, certain, others,
+    BeliefOrder, BeliefReader, Beliefs, Forecaster, MethodResult, ObservedEvent, Prediction,
+    ProgressCallback, Recogniser, SEEN, certain, others,
 };
 use phase_model::{
     AGENT_COUNT, AgentId, BodySet, Entity, Forecast, Goal, Judgement, LandmarkId, ObjectId,
@@ -101,11 +101,15 @@ fn straight_on(observed: &ObservedEvent, steps: usize, share: f32) -> Forecast {
 }
 
 /// A rule for beliefs: an agent sees what is before its eyes, and believes everything else to be in the room
-/// where it was at some other time.
+/// where it was at some other time. The same rules say what it believes the other to believe, by the other's
+/// eyes.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum BeliefRule {
     /// The state in which the agent could last see it, or that at the start if it never could.
     LastSeen,
+    /// As `LastSeen`, where the question is about its own belief; where it is about the other's, the state in
+    /// which the agent itself could last see it: the other believes what the agent does.
+    OwnBelief,
     /// Now.
     TrueState,
     /// At the start.
@@ -116,6 +120,7 @@ impl BeliefReader for BeliefRule {
     fn read_beliefs(
         &self,
         observed: &ObservedEvent,
+        order: BeliefOrder,
         steps: &[usize],
         _seed: u64,
         _tick: ProgressCallback<'_>,
@@ -123,10 +128,13 @@ impl BeliefReader for BeliefRule {
         let seen = seen_at(observed);
         let rows = observed.rows();
         let of = |step: usize, agent: AgentId, entity: Entity| {
-            let sees = |t: usize| seen[t][agent].contains(entity);
+            let sees = |t: usize, viewer: AgentId| seen[t][viewer].contains(entity);
+            let viewer = order.viewer(agent);
+            let last = |viewer: AgentId| (0..=step).rev().find(|&t| sees(t, viewer)).unwrap_or(0);
             let then = match self {
-                _ if sees(step) => return certain(SEEN),
-                Self::LastSeen => (0..step).rev().find(|&t| sees(t)).unwrap_or(0),
+                _ if sees(step, viewer) => return certain(SEEN),
+                Self::LastSeen => last(viewer),
+                Self::OwnBelief => last(agent),
                 Self::TrueState => step,
                 Self::FirstState => 0,
             };
@@ -134,7 +142,9 @@ impl BeliefReader for BeliefRule {
         };
         let objects = observed.object_sizes().len();
         let beliefs = |&step: &usize| {
-            AgentId::ALL.map(|agent| others(agent, objects).map(|entity| of(step, agent, entity)).collect())
+            AgentId::ALL.map(|agent| {
+                others(order.viewer(agent), objects).map(|entity| of(step, agent, entity)).collect()
+            })
         };
         Ok(Some((steps.iter().map(beliefs).collect(), Value::Null)))
     }

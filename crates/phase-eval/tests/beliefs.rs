@@ -5,7 +5,7 @@ use phase_eval::{
     beliefs::{BeliefEvent, BeliefSummary, asked_steps},
     trivial::BeliefRule,
 };
-use phase_event::{BeliefReader, Beliefs, ObservedEvent, SEEN, certain};
+use phase_event::{BeliefOrder, BeliefReader, Beliefs, ObservedEvent, SEEN, certain};
 use phase_model::{AgentId, Body, Layout, MAX_ENTITIES, RoomId, Size, Vec2, layout::room_of};
 
 const HERE: Vec2 = Vec2::new(23.0, 8.0);
@@ -27,8 +27,12 @@ fn observed() -> ObservedEvent {
 
 /// The place of the object in an agent's belief after each step.
 fn places(rule: BeliefRule, agent: AgentId) -> Vec<usize> {
+    places_of(rule, BeliefOrder::First, agent)
+}
+
+fn places_of(rule: BeliefRule, order: BeliefOrder, agent: AgentId) -> Vec<usize> {
     let steps: Vec<usize> = (0..6).collect();
-    let answer = rule.read_beliefs(&observed(), &steps, 1, &mut || ControlFlow::Continue(()));
+    let answer = rule.read_beliefs(&observed(), order, &steps, 1, &mut || ControlFlow::Continue(()));
     let (beliefs, _) = answer.expect("an answer").expect("not cancelled");
     let place = |of: &Beliefs| of[agent][1].iter().position(|&p| p == 1.0).expect("a place");
     beliefs.iter().map(place).collect()
@@ -42,6 +46,20 @@ fn rules_know_what_they_say() {
     assert_eq!(places(BeliefRule::TrueState, zero), [here, here, there, SEEN, there, there]);
     assert_eq!(places(BeliefRule::FirstState, zero), [here, here, here, SEEN, here, here]);
     assert_eq!(places(BeliefRule::LastSeen, AgentId::ONE)[5], here, "it never turned");
+    assert_eq!(places(BeliefRule::OwnBelief, zero), places(BeliefRule::LastSeen, zero));
+}
+
+/// Agent 1 never sees the object; agent 0 does in row 3.
+#[test]
+fn rules_about_beliefs_look_through_the_others_eyes() {
+    let [here, there] = [HERE, THERE].map(|place| room_of(place).index());
+    let of = |rule| places_of(rule, BeliefOrder::Second, AgentId::ZERO);
+    assert_eq!(of(BeliefRule::LastSeen), [here; 6]);
+    assert_eq!(of(BeliefRule::OwnBelief), [here, here, here, there, there, there]);
+    assert_eq!(of(BeliefRule::TrueState), [here, here, there, there, there, there]);
+    let other = |rule| places_of(rule, BeliefOrder::Second, AgentId::ONE);
+    assert_eq!(other(BeliefRule::LastSeen), places(BeliefRule::LastSeen, AgentId::ZERO));
+    assert_eq!(other(BeliefRule::OwnBelief), [here, here, here, SEEN, here, here]);
 }
 
 #[test]
@@ -51,10 +69,16 @@ fn scores_are_those_of_the_questions() {
     let unsure = [0.5, 0.25, 0.25, 0.0, 0.0];
     let answers: Vec<Beliefs> = vec![[vec![certain(SEEN), unsure], vec![certain(2), certain(0)]]];
     let moved = |_, agent: AgentId, _| agent == AgentId::ZERO;
-    let questions = BeliefEvent::questions(&[4], 1, &truth, &answers, moved).unwrap();
+    let questions = BeliefEvent::questions(BeliefOrder::First, &[4], 1, &truth, &answers, moved).unwrap();
     // The particles of the fourth belief agree on no place.
     assert_eq!(questions.len(), 3);
-    let event = BeliefEvent { id: "event".into(), questions, cpu_seconds: None, details: Default::default() };
+    let event = BeliefEvent {
+        id: "event".into(),
+        order: BeliefOrder::First,
+        questions,
+        cpu_seconds: None,
+        details: Default::default(),
+    };
     let summary = BeliefSummary::of(&[event], 1).unwrap();
     let [all, unseen, moved] = [&summary.all, &summary.unseen, &summary.moved].map(|it| it.as_ref().unwrap());
     assert_eq!((all.questions, unseen.questions, moved.questions), (3, 2, 1));
@@ -70,7 +94,9 @@ fn scores_are_those_of_the_questions() {
 #[test]
 fn answers_of_another_form_are_refused() {
     let truth: Vec<Beliefs> = vec![[vec![certain(RoomId::TOP_LEFT.index())], vec![certain(1)]]];
-    let ask = |answers: &[Beliefs]| BeliefEvent::questions(&[4], 0, &truth, answers, |_, _, _| false);
+    let ask = |answers: &[Beliefs]| {
+        BeliefEvent::questions(BeliefOrder::First, &[4], 0, &truth, answers, |_, _, _| false)
+    };
     assert!(ask(&truth).is_ok());
     assert!(ask(&[]).unwrap_err().contains("after 1 steps"));
     assert!(ask(&[[vec![], vec![certain(1)]]]).unwrap_err().contains("1 entities"));

@@ -2,6 +2,7 @@
 
 use crate::{MethodResult, ObservedEvent, ProgressCallback};
 use phase_model::{AGENT_COUNT, AgentId, Entity, RoomId, State, layout::room_of};
+use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 /// Places where an agent can believe an entity to be: the four rooms, in the order of [`RoomId::ALL`], and
@@ -47,6 +48,30 @@ pub fn whereabouts(particles: &[State], entity: Entity, is_seen: bool) -> Wherea
     shares
 }
 
+/// The beliefs that are asked about.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum BeliefOrder {
+    /// About the places of entities: where each agent believes each other entity to be.
+    #[default]
+    First,
+    /// About the other's beliefs: where each agent believes the other to believe each entity to be, itself
+    /// included. The entry of an agent in [`Beliefs`] has the entities that are [`others`] to the other
+    /// agent.
+    Second,
+}
+
+impl BeliefOrder {
+    /// The agent whose view of entities the beliefs of an agent are about: its own, or the other's.
+    #[must_use]
+    pub const fn viewer(self, agent: AgentId) -> AgentId {
+        match self {
+            Self::First => agent,
+            Self::Second => agent.other(),
+        }
+    }
+}
+
 /// A method that tells where each agent of an event believes each entity to be.
 ///
 /// The whole event is shown, so that what an agent does later tells what it believed before. A
@@ -64,13 +89,14 @@ pub trait BeliefReader: Sync {
         1
     }
 
-    /// The beliefs after each of some numbers of steps.
+    /// The beliefs of an order after each of some numbers of steps.
     ///
     /// # Errors
     /// [`MethodError`](crate::MethodError) if the method has no answer for such an event.
     fn read_beliefs(
         &self,
         observed: &ObservedEvent,
+        order: BeliefOrder,
         steps: &[usize],
         seed: u64,
         tick: ProgressCallback<'_>,

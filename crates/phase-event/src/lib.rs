@@ -56,7 +56,9 @@ mod trajectory;
 mod warning;
 mod write;
 
-pub use beliefs::{BeliefReader, Beliefs, PLACES, SEEN, Whereabouts, certain, others, whereabouts};
+pub use beliefs::{
+    BeliefOrder, BeliefReader, Beliefs, PLACES, SEEN, Whereabouts, certain, others, whereabouts,
+};
 pub use error::{EventReadError, EventWriteError};
 pub use event::{Event, Step};
 pub use mean::mean_state;

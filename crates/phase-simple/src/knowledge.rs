@@ -6,63 +6,188 @@ use crate::{
     choice::{self, Chance},
 };
 use core::ops::ControlFlow;
+use phase_belief::{AscribedBelief, Glance};
+use phase_event::{BeliefOrder, Beliefs, PLACES, Whereabouts, others, whereabouts};
 use phase_model::{AGENT_COUNT, AgentId, Awareness, Entity, Sight, Vec2};
 use phase_perception::observed_set;
 use phase_pomcp::PomcpError;
 use phase_statistics::log_softmax;
+use serde::{Deserialize, Serialize};
 
 /// Distance within which an agent that has not begun to act stays (u), and the angle (rad).
 const STAY: f32 = 0.1;
 
 /// Kinds of knowledge of objects that an agent may have.
-pub(crate) const SIGHTS: [Sight; 3] = [Sight::Own, Sight::Start, Sight::Objects];
+const SIGHTS: [Sight; 3] = [Sight::Own, Sight::Start, Sight::Objects];
 
-/// An agent's beliefs under each of the [`SIGHTS`], with its probability.
-pub(crate) type WeightedBeliefs = Vec<(EstimatedBeliefs, f64)>;
+/// Settings of the inference from what an agent does to what it knows.
+#[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
+pub struct KnowledgeSettings {
+    /// Inverse temperature of the likelihood of a decision, at least 0; 1, the default, takes decisions to be
+    /// independent. `cargo xtask fit-beliefs` compares others.
+    pub inverse_temperature: f64,
+}
 
-/// Weighs what an agent may know of objects by how well its mind then explains what it does, if a hypothesis
-/// about goals is true. The prior is even. Looked at are the decisions that the agent makes once it acts
-/// while an object is out of its sight; in the others beliefs do not differ. `None` if `tick` did not let it.
-pub(crate) fn weigh(
+impl Default for KnowledgeSettings {
+    fn default() -> Self {
+        Self { inverse_temperature: 1.0 }
+    }
+}
+
+/// Places for each kind of knowledge of an agent; of beliefs about beliefs for each of its own, and within
+/// that for each of the other's.
+type Alternatives = Vec<Whereabouts>;
+
+/// The beliefs that each agent of an event would have with each kind of knowledge, and how well each explains
+/// what the agent does. [`beliefs`](Self::beliefs) averages over them.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
+pub struct BeliefEvidence {
+    order: BeliefOrder,
+    /// Log likelihoods of the decisions of each agent, by its knowledge: of objects what it sees, also where
+    /// they were at the start, or where they are.
+    log_likelihoods: [[f64; SIGHTS.len()]; AGENT_COUNT],
+    /// After each step asked about, for each agent and entity.
+    places: Vec<[Vec<Alternatives>; AGENT_COUNT]>,
+}
+
+impl BeliefEvidence {
+    /// The probability of each kind of knowledge of an agent: of objects what it sees, also where they were
+    /// at the start, or where they are. The prior is even.
+    #[must_use]
+    pub fn knowledge(&self, agent: AgentId, settings: &KnowledgeSettings) -> [f64; SIGHTS.len()] {
+        let mut logs = self.log_likelihoods[agent].map(|log| settings.inverse_temperature * log);
+        log_softmax(&mut logs);
+        logs.map(libm::exp)
+    }
+
+    /// The beliefs after each of the steps.
+    #[must_use]
+    pub fn beliefs(&self, settings: &KnowledgeSettings) -> Vec<Beliefs> {
+        let knows = AgentId::ALL.map(|agent| self.knowledge(agent, settings));
+        let weights = AgentId::ALL.map(|agent| match self.order {
+            BeliefOrder::First => knows[agent].to_vec(),
+            BeliefOrder::Second => {
+                let of_other = |own: f64| knows[agent.other()].map(|other| own * other);
+                knows[agent].into_iter().flat_map(of_other).collect()
+            }
+        });
+        let mean = |agent: AgentId, places: &Alternatives| -> Whereabouts {
+            let of =
+                |place: usize| weights[agent].iter().zip(places).map(|(weight, it)| weight * it[place]).sum();
+            core::array::from_fn::<f64, PLACES, _>(of)
+        };
+        let after = |of: &[Vec<Alternatives>; AGENT_COUNT]| {
+            AgentId::ALL.map(|agent| of[agent].iter().map(|places| mean(agent, places)).collect())
+        };
+        self.places.iter().map(after).collect()
+    }
+}
+
+/// The evidence about the beliefs of an order after some steps, if a hypothesis about goals is true. `None`
+/// if `tick` did not let it.
+pub(crate) fn evidence(
+    prepared: &PreparedEvent,
+    hypothesis: &Hypothesis,
+    (order, steps): (BeliefOrder, &[usize]),
+    settings: &InversePlanningSettings,
+    tick: &mut dyn FnMut() -> ControlFlow<()>,
+) -> Result<Option<BeliefEvidence>, PomcpError> {
+    let mut log_likelihoods = [[0.0; SIGHTS.len()]; AGENT_COUNT];
+    let mut places: Vec<[Vec<Alternatives>; AGENT_COUNT]> =
+        steps.iter().map(|_| [const { Vec::new() }; AGENT_COUNT]).collect();
+    for agent in AgentId::ALL {
+        let telling = telling_steps(prepared, agent);
+        let mut all = Vec::with_capacity(SIGHTS.len());
+        for (log, sees) in log_likelihoods[agent].iter_mut().zip(SIGHTS) {
+            let beliefs = beliefs_with(prepared, hypothesis, agent, sees);
+            let mut run = prepared.run(hypothesis)?;
+            for &step in &telling {
+                if tick().is_break() {
+                    return Ok(None);
+                }
+                let (action, thought) = prepared.decide_believing(&mut run, agent, step, &beliefs)?;
+                let likelihoods = choice::likelihoods_in(prepared.motion(), step, settings.tolerance);
+                let chance = Chance::of(&choice::policy_of(action, &thought), &likelihoods[agent]);
+                *log += chance.log(settings.lapse_rate);
+            }
+            all.push(beliefs);
+        }
+        let of_agent = match order {
+            BeliefOrder::First => own_places(prepared, agent, &all, steps),
+            BeliefOrder::Second => ascribed_places(prepared, agent, &all, steps),
+        };
+        places.iter_mut().zip(of_agent).for_each(|(places, it)| places[agent] = it);
+    }
+    Ok(Some(BeliefEvidence { order, log_likelihoods, places }))
+}
+
+/// The beliefs of an agent with some senses.
+fn beliefs_with(
     prepared: &PreparedEvent,
     hypothesis: &Hypothesis,
     agent: AgentId,
-    settings: &InversePlanningSettings,
-    tick: &mut dyn FnMut() -> ControlFlow<()>,
-) -> Result<Option<WeightedBeliefs>, PomcpError> {
+    sees: Sight,
+) -> EstimatedBeliefs {
+    let mut scene = hypothesis.scene(prepared.observed());
+    scene.agents[agent].awareness = Awareness { sees, ..Awareness::default() };
+    let minds = &prepared.agents().minds;
+    EstimatedBeliefs::in_scene(&scene, &prepared.motion().states, agent, minds, prepared.seed())
+}
+
+/// The decisions that an agent makes once it acts while an object is out of its sight; in the others beliefs
+/// do not differ.
+fn telling_steps(prepared: &PreparedEvent, agent: AgentId) -> Vec<usize> {
     let observed = prepared.observed();
-    let states = &prepared.motion().states;
     let physics = observed.physics([0.0; AGENT_COUNT]);
-    let objects = || observed.entities().skip(AGENT_COUNT);
-    let hidden = |step: usize| {
-        let seen = observed_set(&physics, &states[step], agent);
-        objects().any(|object| !seen.contains(object))
+    let hidden = |&step: &usize| {
+        let seen = observed_set(&physics, &prepared.motion().states[step], agent);
+        observed.entities().skip(AGENT_COUNT).any(|object| !seen.contains(object))
     };
-    let steps: Vec<usize> =
-        (begins(prepared, agent)..observed.steps()).filter(|&step| hidden(step)).collect();
-    let mut all = Vec::with_capacity(SIGHTS.len());
-    let mut logs = Vec::with_capacity(SIGHTS.len());
-    for sees in SIGHTS {
-        let mut scene = hypothesis.scene(observed);
-        scene.agents[agent].awareness = Awareness { sees, ..Awareness::default() };
-        let beliefs =
-            EstimatedBeliefs::in_scene(&scene, states, agent, &prepared.agents().minds, prepared.seed());
-        let mut run = prepared.run(hypothesis)?;
-        let mut log = 0.0;
-        for &step in &steps {
-            if tick().is_break() {
-                return Ok(None);
-            }
-            let (action, thought) = prepared.decide_believing(&mut run, agent, step, &beliefs)?;
-            let likelihoods = choice::likelihoods_in(prepared.motion(), step, settings.tolerance);
-            let chance = Chance::of(&choice::policy_of(action, &thought), &likelihoods[agent]);
-            log += chance.log(settings.lapse_rate);
-        }
-        logs.push(settings.inverse_temperature * log);
-        all.push(beliefs);
+    (begins(prepared, agent)..observed.steps()).filter(hidden).collect()
+}
+
+/// The places where an agent believes each other entity to be after some steps, by its knowledge.
+fn own_places(
+    prepared: &PreparedEvent,
+    agent: AgentId,
+    beliefs: &[EstimatedBeliefs],
+    steps: &[usize],
+) -> Vec<Vec<Alternatives>> {
+    let observed = prepared.observed();
+    let physics = observed.physics([0.0; AGENT_COUNT]);
+    let after = |&step: &usize| {
+        let seen = observed_set(&physics, &prepared.motion().states[step], agent);
+        let of = |entity: Entity| {
+            let with = |it: &EstimatedBeliefs| {
+                whereabouts(it.after(step).particles(), entity, seen.contains(entity))
+            };
+            beliefs.iter().map(with).collect()
+        };
+        others(agent, observed.object_sizes().len()).map(of).collect()
+    };
+    steps.iter().map(after).collect()
+}
+
+/// The places where an agent believes the other to believe each entity to be, by the knowledge of both.
+fn ascribed_places(
+    prepared: &PreparedEvent,
+    agent: AgentId,
+    beliefs: &[EstimatedBeliefs],
+    steps: &[usize],
+) -> Vec<Vec<Alternatives>> {
+    let observed = prepared.observed();
+    let physics = observed.physics([0.0; AGENT_COUNT]);
+    let mut ascribed = Vec::with_capacity(SIGHTS.len() * SIGHTS.len());
+    for beliefs in beliefs {
+        let glance = |step: usize| Glance::of(&physics, beliefs.after(step).particles(), agent.other());
+        let glances: Vec<Glance> = (0..=observed.steps()).map(glance).collect();
+        ascribed.extend(SIGHTS.map(|sees| AscribedBelief::along(&glances, sees)));
     }
-    log_softmax(&mut logs);
-    Ok(Some(all.into_iter().zip(logs.into_iter().map(libm::exp)).collect()))
+    let after = |&step: &usize| {
+        let of = |entity: Entity| ascribed.iter().map(|it| it[step].places(entity)).collect();
+        others(agent.other(), observed.object_sizes().len()).map(of).collect()
+    };
+    steps.iter().map(after).collect()
 }
 
 /// The step in which an agent begins to act: the first after which it is elsewhere, or turned.

@@ -89,6 +89,7 @@ pub use impression::{Happening, Impression, Interaction};
 pub use inference::{Cues, InferenceError, explain, infer};
 pub use intent_network::IntentNetwork;
 pub use inverse_dynamics::{InverseDynamics, MotionTracker};
+pub use knowledge::{BeliefEvidence, KnowledgeSettings};
 pub use methods::{IntentGuess, MotionCue, Simple};
 pub use models::{Models, ModelsError};
 pub use observer::{Observer, ObserverError};

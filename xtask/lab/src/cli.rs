@@ -7,6 +7,7 @@ use crate::{
     check_search,
     check_track::{self, CheckTrack},
     error::LabError,
+    fit_beliefs,
     fit_events::FitEvents,
     fit_forecast,
     fit_inference::{self, options::FitInference},
@@ -39,6 +40,8 @@ pub enum Command {
     FitMinds(FitMinds),
     /// Fit how SIMPLE weighs its evidence to events whose labels are known
     FitInference(FitInference),
+    /// Fit how strongly actions tell SIMPLE what agents know
+    FitBeliefs(FitEvents),
     /// Fit how SIMPLE combines simulated futures
     FitForecast(FitEvents),
     /// Fit how people report what they saw to raters of recordings
@@ -60,6 +63,7 @@ impl Interface for Command {
             Self::CheckTrack(arguments) => check_track::run(arguments, context),
             Self::FitInference(arguments) => fit_inference::run(arguments, context),
             Self::FitMinds(arguments) => fit_minds::run(arguments, context),
+            Self::FitBeliefs(arguments) => fit_beliefs::run(arguments, context),
             Self::FitForecast(arguments) => fit_forecast::run(arguments, context),
             Self::FitReports(arguments) => fit_reports::run(arguments),
         }

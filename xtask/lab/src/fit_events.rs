@@ -18,7 +18,7 @@ use std::{
     path::{Path, PathBuf},
 };
 
-/// Options of `fit-forecast` and `fit-inference`.
+/// Options of `fit-beliefs`, `fit-forecast` and `fit-inference`.
 #[derive(Args, Debug)]
 pub struct FitEvents {
     /// The events to fit to: a file in the format phase-events/1, or the folder of a dataset or of

@@ -5,6 +5,7 @@
 //! - `check-minds` compares minds with recorded agents,
 //! - `check-physics` compares an engine with recorded motion,
 //! - `check-track` compares tracks with the motion in videos that it draws,
+//! - `fit-beliefs` fits how strongly actions tell SIMPLE what agents know,
 //! - `fit-forecast` fits how SIMPLE combines simulated futures,
 //! - `fit-inference` fits how SIMPLE weighs its evidence,
 //! - `fit-minds` fits the parameters of minds to recorded agents,
@@ -25,6 +26,7 @@ pub mod check_track;
 pub mod cli;
 pub mod error;
 mod evaluations_file;
+pub mod fit_beliefs;
 pub mod fit_events;
 pub mod fit_forecast;
 pub mod fit_inference;

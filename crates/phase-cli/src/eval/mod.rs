@@ -30,9 +30,9 @@ pub fn run(arguments: &Eval, context: &Context) -> Result<(), CliError> {
         require_networks(context)?;
     }
     let common = arguments.common();
-    common.json.check(&common.compare)?;
+    common.json.check(arguments.compare())?;
     // Before the work.
-    let others = common.compare.iter().map(|file| Ok((file.as_path(), json::read(file)?)));
+    let others = arguments.compare().iter().map(|file| Ok((file.as_path(), json::read(file)?)));
     let others: Others<'_> = others.collect::<Result<_, CliError>>()?;
     interrupt::listen();
     let evaluation = Evaluation::from(arguments);
@@ -48,8 +48,9 @@ pub fn run(arguments: &Eval, context: &Context) -> Result<(), CliError> {
             }
             None => announce(evaluation.goals(&answers, context)?, arguments, &others),
         },
-        Eval::Beliefs(_) if !others.is_empty() => Err(CliError::Usage("--compare: not of beliefs".into())),
-        Eval::Beliefs(_) => announce(evaluation.beliefs(&answers, context)?, arguments, &others),
+        Eval::Beliefs(options) => {
+            announce(evaluation.beliefs(&answers, options.order(), context)?, arguments, &others)
+        }
         Eval::Trajectories(_) => announce(evaluation.trajectories(&answers, context)?, arguments, &others),
     }
 }

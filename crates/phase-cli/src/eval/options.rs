@@ -3,6 +3,7 @@
 use crate::{effort::MindOptions, json_file::JsonFile, named::named, parallel::Jobs, shard_option::shard};
 use clap::{Args, Subcommand, builder::PossibleValuesParser, value_parser};
 use phase_dataset::splits::Split;
+use phase_event::BeliefOrder;
 use phase_runs::eval::{Answers, Evaluation, methods};
 use std::path::PathBuf;
 
@@ -38,6 +39,9 @@ pub struct EvalGoals {
     /// docs/reference/formats/studies.md): also report how closely the method's probabilities agree with them
     #[arg(long, value_name = "FILE")]
     pub ratings: Option<PathBuf>,
+    /// Other answers.
+    #[command(flatten)]
+    pub others: Others,
     /// Events and output.
     #[command(flatten)]
     pub common: Common,
@@ -50,6 +54,9 @@ pub struct EvalTrajectories {
     #[arg(long, value_name = "METHOD", value_parser = PossibleValuesParser::new(methods::FORECASTERS),
           required_unless_present = "predictions")]
     pub method: Option<String>,
+    /// Other answers.
+    #[command(flatten)]
+    pub others: Others,
     /// Events and output.
     #[command(flatten)]
     pub common: Common,
@@ -58,30 +65,42 @@ pub struct EvalTrajectories {
 /// Options of `eval beliefs`.
 #[derive(Args, Debug)]
 pub struct EvalBeliefs {
-    /// The method to measure: simple, or a rule: the room where the agent could last see an entity, where it
-    /// is now, or where it was at the start
-    #[arg(long, value_name = "METHOD", value_parser = PossibleValuesParser::new(methods::BELIEF_READERS),
-          required_unless_present = "predictions")]
-    pub method: Option<String>,
+    /// The method to measure: simple, or a rule: the room where the agent that believes could last see an
+    /// entity, where (with --order 2) the agent that ascribes the belief could, where it is now, or where it
+    /// was at the start
+    #[arg(long, value_name = "METHOD", value_parser = PossibleValuesParser::new(methods::BELIEF_READERS))]
+    pub method: String,
+    /// 1: where each agent believes each entity to be; 2: where it believes the other to believe it
+    #[arg(long, value_name = "1|2", default_value_t = 1, value_parser = value_parser!(u8).range(1..=2))]
+    pub order: u8,
     /// Events and output.
     #[command(flatten)]
     pub common: Common,
 }
 
-/// Options of all tasks.
-#[derive(Args, Debug)]
-pub struct Common {
+/// Options of the tasks of the paper, about other answers than those of SIMPLE and rules.
+#[derive(Args, Debug, Default)]
+pub struct Others {
     /// The weights of a neural network (safetensors, as `train` writes them) [default: those that come with
     /// the program]
     #[arg(long, value_name = "FILE", conflicts_with = "predictions")]
     pub weights: Option<PathBuf>,
-    /// The minds that SIMPLE imagines.
-    #[command(flatten)]
-    pub minds: MindOptions,
     /// Score the answers in this file instead of asking a method (`events` as in results.json; see
     /// docs/reference/formats/evaluation.md)
     #[arg(long, value_name = "FILE", conflicts_with = "method")]
     pub predictions: Option<PathBuf>,
+    /// Also print the differences from another method, with intervals: its results.json for the same events.
+    /// May be given several times
+    #[arg(long, value_name = "FILE", conflicts_with = "shard")]
+    pub compare: Vec<PathBuf>,
+}
+
+/// Options of all tasks.
+#[derive(Args, Debug)]
+pub struct Common {
+    /// The minds that SIMPLE imagines.
+    #[command(flatten)]
+    pub minds: MindOptions,
     /// A file in the format phase-events/1, or the folder of a dataset or of simulations
     #[arg(long, value_name = "FILE|DIR")]
     pub events: PathBuf,
@@ -95,10 +114,6 @@ pub struct Common {
     /// Random seed of the method and the intervals
     #[arg(long, value_name = "S", default_value_t = 1)]
     pub seed: u64,
-    /// Also print the differences from another method, with intervals: its results.json for the same events.
-    /// May be given several times
-    #[arg(long, value_name = "FILE", conflicts_with = "shard")]
-    pub compare: Vec<PathBuf>,
     /// The results as JSON.
     #[command(flatten)]
     pub json: JsonFile,
@@ -126,6 +141,13 @@ pub struct Parts {
     pub merge: Vec<PathBuf>,
 }
 
+impl EvalBeliefs {
+    /// The beliefs to ask about.
+    pub(super) const fn order(&self) -> BeliefOrder {
+        if self.order == 1 { BeliefOrder::First } else { BeliefOrder::Second }
+    }
+}
+
 impl Eval {
     /// The name of the task.
     pub(super) const fn task(&self) -> &'static str {
@@ -142,6 +164,16 @@ impl Eval {
             Self::Goals(options) => &options.common,
             Self::Trajectories(options) => &options.common,
             Self::Beliefs(options) => &options.common,
+        }
+    }
+
+    /// The results of other methods to compare with.
+    pub(super) fn compare(&self) -> &[PathBuf] {
+        match self {
+            Self::Goals(EvalGoals { others, .. }) | Self::Trajectories(EvalTrajectories { others, .. }) => {
+                &others.compare
+            }
+            Self::Beliefs(_) => &[],
         }
     }
 }
@@ -170,19 +202,17 @@ impl From<&Eval> for Evaluation {
 
 impl From<&Eval> for Answers {
     fn from(options: &Eval) -> Self {
-        let method = match options {
-            Eval::Goals(options) => &options.method,
-            Eval::Trajectories(options) => &options.method,
-            Eval::Beliefs(options) => &options.method,
+        let minds = options.common().minds.into();
+        let (method, weights, predictions) = match options {
+            Eval::Beliefs(options) => (Some(&options.method), None, None),
+            Eval::Goals(EvalGoals { method, others, .. })
+            | Eval::Trajectories(EvalTrajectories { method, others, .. }) => {
+                (method.as_ref(), others.weights.clone(), others.predictions.clone())
+            }
         };
-        let common = options.common();
-        match &common.predictions {
-            Some(file) => Self::Predictions(file.clone()),
-            None => Self::Method {
-                name: method.clone().unwrap_or_default(),
-                weights: common.weights.clone(),
-                minds: common.minds.into(),
-            },
+        match predictions {
+            Some(file) => Self::Predictions(file),
+            None => Self::Method { name: method.cloned().unwrap_or_default(), weights, minds },
         }
     }
 }

@@ -3,6 +3,7 @@
 use super::{Subject, cost, share};
 use phase_document::document::{Block, Document, head};
 use phase_eval::beliefs::{AGREEMENT, BeliefScores, BeliefSummary, STRIDE};
+use phase_event::BeliefOrder;
 
 /// The report of how well a method tells what agents believe.
 #[must_use]
@@ -18,16 +19,25 @@ pub fn beliefs(subject: Subject<'_>, summary: &BeliefSummary) -> Document {
         );
         [name.to_owned()].into_iter().chain(cells).collect()
     };
-    let rows = vec![
-        row("all entities", &summary.all),
-        row("not seen by the agent", &summary.unseen),
-        row("moved since the agent could see it", &summary.moved),
-    ];
+    let title = if summary.order == BeliefOrder::First { "Beliefs" } else { "Beliefs about beliefs" };
+    let (asked, unseen, moved) = match summary.order {
+        BeliefOrder::First => (
+            "each agent believes each other entity to be, or that the agent sees it",
+            "not seen by the agent",
+            "moved since the agent could see it",
+        ),
+        BeliefOrder::Second => (
+            "each agent believes the other agent to believe each entity to be, or that the other sees it",
+            "not surely seen by the other",
+            "moved since the other could see it",
+        ),
+    };
+    let rows =
+        vec![row("all entities", &summary.all), row(unseen, &summary.unseen), row(moved, &summary.moved)];
     let columns = ["beliefs about", "events", "questions", "accuracy", "Brier", "calibration error"];
     let text = format!(
-        "{}, seed {}: {} events. The method sees a whole event and says, every {STRIDE} steps, in which room each agent \
-         believes each other entity to be, or that the agent sees it. The truth is the shares of the agent's particles; \
-         asked about is what {:.0} % of them agree on.",
+        "{}, seed {}: {} events. The method sees a whole event and says, every {STRIDE} steps, in which room {asked}. The \
+         truth follows from the agent's particles; asked about is what has a probability of at least {:.0} % in them.",
         subject.events,
         subject.seed,
         summary.n,
@@ -43,5 +53,5 @@ pub fn beliefs(subject: Subject<'_>, summary: &BeliefSummary) -> Document {
         ),
         Block::Text(cost(summary.cpu_seconds_per_event)),
     ];
-    Document { title: format!("Beliefs told by {}", subject.method), blocks }
+    Document { title: format!("{title} told by {}", subject.method), blocks }
 }

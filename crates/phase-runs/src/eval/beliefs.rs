@@ -2,26 +2,32 @@
 
 use super::{Answers, answers::AnswerSource, input::Event, methods, task::Task};
 use crate::error::RunError;
-use phase_eval::beliefs::{BeliefEvent, asked_steps};
+use phase_belief::{AscribedBelief, Glance};
+use phase_eval::beliefs::{BeliefEvent, BeliefQuestion, asked_steps};
 use phase_event::{
-    BeliefReader, Beliefs, MethodError, ProgressCallback, Recording, SimulationRecord, others, whereabouts,
+    BeliefOrder, BeliefReader, Beliefs, MethodError, ProgressCallback, Recording, SimulationRecord, others,
+    whereabouts,
 };
-use phase_model::{AGENT_COUNT, AgentId, BodySet, Entity, State, json::FieldError, layout::room_of};
+use phase_model::{
+    AGENT_COUNT, AgentId, BodySet, Entity, Knowledge, Scene, Sight, State, json::FieldError, layout::room_of,
+};
 use phase_perception::observed_set;
 use phase_sim::SimulationSettings;
+use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 use std::path::Path;
 
 /// The task.
 pub(crate) struct BeliefTask {
     answers: AnswerSource<dyn BeliefReader, Vec<Beliefs>>,
+    order: BeliefOrder,
 }
 
 impl BeliefTask {
-    /// The task for the answers of a method.
-    pub(crate) fn of(answers: &Answers) -> Result<Self, RunError> {
+    /// The task for the answers of a method about beliefs of an order.
+    pub(crate) fn of(answers: &Answers, order: BeliefOrder) -> Result<Self, RunError> {
         let file = |_: &Path| Err(RunError::Usage("--predictions: not of beliefs; give a --method".into()));
-        Ok(Self { answers: AnswerSource::of(answers, methods::belief_reader, file)? })
+        Ok(Self { answers: AnswerSource::of(answers, methods::belief_reader, file)?, order })
     }
 }
 
@@ -32,12 +38,19 @@ impl Task for BeliefTask {
 
     const NAME: &'static str = "beliefs";
 
+    fn label(&self) -> &'static str {
+        match self.order {
+            BeliefOrder::First => Self::NAME,
+            BeliefOrder::Second => "beliefs-about-beliefs",
+        }
+    }
+
     fn answers(&self) -> &AnswerSource<dyn BeliefReader, Vec<Beliefs>> {
         &self.answers
     }
 
     fn settings(&self) -> Value {
-        self.answers.settings(|method| json!({ "method": method.settings() }))
+        self.answers.settings(|method| json!({ "method": method.settings(), "order": self.order }))
     }
 
     fn ticks(&self) -> usize {
@@ -63,21 +76,67 @@ impl Task for BeliefTask {
         seed: u64,
         tick: ProgressCallback<'_>,
     ) -> Result<Option<BeliefEvent>, MethodError> {
+        let observed = recording.observed().map_err(MethodError::new)?;
+        let steps = asked_steps(observed.steps());
+        let asked = self
+            .answers
+            .answer(event, |method| method.read_beliefs(&observed, self.order, &steps, seed, tick))?;
+        let Some((answers, details, cpu_seconds)) = asked else { return Ok(None) };
+        let questions =
+            TrueBeliefs::of(recording, self.order, &steps)?.questions(&answers).map_err(MethodError::new)?;
+        Ok(Some(BeliefEvent { id: event.id.clone(), order: self.order, questions, cpu_seconds, details }))
+    }
+}
+
+/// The beliefs of the agents of a simulated event after some steps.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
+pub struct TrueBeliefs {
+    order: BeliefOrder,
+    steps: Vec<usize>,
+    objects: usize,
+    beliefs: Vec<Beliefs>,
+    /// After each step and for each agent the entities that were moved since the agent could last see them.
+    moved: Vec<[Vec<Entity>; AGENT_COUNT]>,
+}
+
+impl TrueBeliefs {
+    /// The beliefs of an order after some steps of an event.
+    ///
+    /// # Errors
+    /// [`MethodError`] if the event was not simulated, or its settings are not those of a simulation.
+    pub fn of(recording: &Recording, order: BeliefOrder, steps: &[usize]) -> Result<Self, MethodError> {
         let Some(simulation) = &recording.simulation else {
             return Err(MethodError::new("was not simulated, so nobody knows its agents' beliefs"));
         };
-        let observed = recording.observed().map_err(MethodError::new)?;
-        let steps = asked_steps(observed.steps());
-        let asked =
-            self.answers.answer(event, |method| method.read_beliefs(&observed, &steps, seed, tick))?;
-        let Some((answers, details, cpu_seconds)) = asked else { return Ok(None) };
         let truth = Truth::of(simulation).map_err(MethodError::new)?;
-        let moved =
-            |step: usize, agent: AgentId, entity: usize| truth.was_moved(step, agent, Entity::ALL[entity]);
-        let beliefs: Vec<Beliefs> = steps.iter().map(|&step| truth.beliefs(step)).collect();
-        let questions = BeliefEvent::questions(&steps, truth.objects, &beliefs, &answers, moved);
-        let questions = questions.map_err(MethodError::new)?;
-        Ok(Some(BeliefEvent { id: event.id.clone(), questions, cpu_seconds, details }))
+        let moved = |&step: &usize| {
+            AgentId::ALL.map(|agent| {
+                let viewer = order.viewer(agent);
+                others(viewer, truth.objects).filter(|&it| truth.was_moved(step, viewer, it)).collect()
+            })
+        };
+        Ok(Self {
+            order,
+            steps: steps.to_vec(),
+            objects: truth.objects,
+            beliefs: match order {
+                BeliefOrder::First => steps.iter().map(|&step| truth.beliefs(step)).collect(),
+                BeliefOrder::Second => truth.ascribed(&simulation.event.scene, steps),
+            },
+            moved: steps.iter().map(moved).collect(),
+        })
+    }
+
+    /// The questions about these beliefs, with the answers of a method.
+    ///
+    /// # Errors
+    /// As [`BeliefEvent::questions`].
+    pub fn questions(&self, answers: &[Beliefs]) -> Result<Vec<BeliefQuestion>, String> {
+        let moved = |step: usize, agent: AgentId, entity: usize| {
+            let at = self.steps.iter().position(|&it| it == step);
+            at.is_some_and(|at| self.moved[at][agent].contains(&Entity::ALL[entity]))
+        };
+        BeliefEvent::questions(self.order, &self.steps, self.objects, &self.beliefs, answers, moved)
     }
 }
 
@@ -112,6 +171,28 @@ impl Truth {
             };
             others(agent, self.objects).map(of).collect()
         })
+    }
+
+    /// The beliefs that each agent ascribes to the other after some steps. An agent that knows the other's
+    /// goal knows its senses, too; another takes it to have its own eyes alone.
+    fn ascribed(&self, scene: &Scene, steps: &[usize]) -> Vec<Beliefs> {
+        let physics = scene.physics();
+        let mut beliefs: Vec<Beliefs> = steps.iter().map(|_| [const { Vec::new() }; AGENT_COUNT]).collect();
+        for agent in AgentId::ALL {
+            let other = agent.other();
+            let sees = match scene.agents[agent].awareness.knows {
+                Knowledge::Goals => scene.agents[other].awareness.sees,
+                Knowledge::Nothing(_) => Sight::Own,
+            };
+            let glance = |particles: &Vec<State>| Glance::of(&physics, particles, other);
+            let glances: Vec<Glance> = self.particles[agent].iter().map(glance).collect();
+            let ascribed = AscribedBelief::along(&glances, sees);
+            for (&step, beliefs) in steps.iter().zip(&mut beliefs) {
+                let of = |entity: Entity| ascribed[step].places(entity);
+                beliefs[agent] = others(other, self.objects).map(of).collect();
+            }
+        }
+        beliefs
     }
 
     /// Whether an entity is in another room than when an agent could last see it, or at the start.

@@ -19,7 +19,7 @@ pub const FORECASTERS: [&str; 6] =
     ["simple", "simple-published", "social-lstm", "stgat", "constant-velocity", "still"];
 
 /// Names of the methods for beliefs.
-pub const BELIEF_READERS: [&str; 4] = ["simple", "last-seen", "true-state", "first-state"];
+pub const BELIEF_READERS: [&str; 5] = ["simple", "last-seen", "own-belief", "true-state", "first-state"];
 
 /// Names of the methods for goals and relations.
 #[must_use]
@@ -86,6 +86,7 @@ pub fn belief_reader(
     no_weights(name, weights)?;
     match name {
         "last-seen" => Ok(Box::new(BeliefRule::LastSeen)),
+        "own-belief" => Ok(Box::new(BeliefRule::OwnBelief)),
         "true-state" => Ok(Box::new(BeliefRule::TrueState)),
         "first-state" => Ok(Box::new(BeliefRule::FirstState)),
         _ => Ok(Box::new(simple.ok_or_else(|| no_such(name))?)),

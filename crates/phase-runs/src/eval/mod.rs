@@ -19,6 +19,7 @@ pub(crate) mod task;
 pub(crate) mod trajectories;
 mod unlabelled;
 
+pub use beliefs::TrueBeliefs;
 pub use task::{Evaluated, REPORT_FILE};
 pub use unlabelled::Answered;
 
@@ -28,6 +29,7 @@ use goals::Goals;
 use input::Input;
 use phase_dataset::splits::Split;
 use phase_eval::{beliefs::BeliefEvent, goals::RecognisedEvent, trajectories::ForecastEvent};
+use phase_event::BeliefOrder;
 use ratings::Ratings;
 use std::path::PathBuf;
 use trajectories::Trajectories;
@@ -137,17 +139,18 @@ impl Evaluation {
         task::evaluate(&trajectories, &input, self, listener)
     }
 
-    /// Evaluates where a method says that agents believe entities to be, in simulated events; `None` if that
-    /// is only a part, which is now done.
+    /// Evaluates where a method says that agents believe entities to be, or believe each other to believe
+    /// them, in simulated events; `None` if that is only a part, which is now done.
     ///
     /// # Errors
     /// Those of [`Evaluation::goals`], and for a file of predictions or an event that was not simulated.
     pub fn beliefs(
         &self,
         answers: &Answers,
+        order: BeliefOrder,
         listener: &dyn Listener,
     ) -> Result<Option<Evaluated<BeliefEvent>>, RunError> {
         let input = Input::open(self, listener)?;
-        task::evaluate(&BeliefTask::of(answers)?, &input, self, listener)
+        task::evaluate(&BeliefTask::of(answers, order)?, &input, self, listener)
     }
 }

@@ -58,6 +58,11 @@ pub(crate) trait Task: Sync {
     /// The task's name.
     const NAME: &'static str;
 
+    /// The name of the questions in the names of folders.
+    fn label(&self) -> &'static str {
+        Self::NAME
+    }
+
     /// The method or its answers.
     fn answers(&self) -> &AnswerSource<Self::Method, Self::Answer>;
 
@@ -293,7 +298,7 @@ fn no_events(out: &Path) -> RunError {
 /// where anything is written: what may mean something in a path becomes `-`.
 fn default_folder<T: Task>(task: &T, input: &Input, shard: Option<(usize, usize)>) -> PathBuf {
     let shard = shard.map_or_else(String::new, |(number, of)| format!("-shard{number}of{of}"));
-    let name = format!("{}-{}-{}{shard}", T::NAME, task.answers().name.as_str(), input.name);
+    let name = format!("{}-{}-{}{shard}", task.label(), task.answers().name.as_str(), input.name);
     let plain = |letter: char| if letter.is_alphanumeric() || "-_.".contains(letter) { letter } else { '-' };
     Path::new("out/eval").join(name.chars().map(plain).collect::<String>())
 }

@@ -2,18 +2,17 @@
 
 use super::variants::{VARIANTS, Variant};
 use crate::{
-    Algorithm, AlternativeAgents, Cues, ForecastSettings, Guidance, Guide, ImaginedAgents, Inference,
-    InferenceError, InferenceSettings, InversePlanningSettings, MindPosterior, Models, ModelsError, Observer,
-    ObserverError, PreparedEvent, futures, infer, knowledge,
+    Algorithm, AlternativeAgents, BeliefEvidence, Cues, ForecastSettings, Guidance, Guide, ImaginedAgents,
+    Inference, InferenceError, InferenceSettings, InversePlanningSettings, KnowledgeSettings, MindPosterior,
+    Models, ModelsError, Observer, ObserverError, PreparedEvent, futures, infer, knowledge,
 };
 use core::ops::ControlFlow;
 use phase_event::{
-    BeliefReader, Beliefs, Forecaster, MethodError, MethodResult, ObservedEvent, PLACES, Prediction,
-    ProgressCallback, Recogniser, SAMPLES, others, whereabouts,
+    BeliefOrder, BeliefReader, Beliefs, Forecaster, MethodError, MethodResult, ObservedEvent, Prediction,
+    ProgressCallback, Recogniser, SAMPLES,
 };
 use phase_minds::{MindKind, Recorder};
-use phase_model::{AGENT_COUNT, AgentId, Entity, Judgement};
-use phase_perception::observed_set;
+use phase_model::{AgentId, Judgement};
 use serde_json::{Value, json};
 use std::sync::Arc;
 
@@ -37,6 +36,7 @@ const REPORTED_HYPOTHESES: usize = 12;
 pub struct Simple {
     settings: InferenceSettings,
     forecast: ForecastSettings,
+    knowledge: KnowledgeSettings,
     /// The weight of the intent network's guess, if it guides.
     guidance: Option<Guidance>,
     models: Arc<Models>,
@@ -57,7 +57,8 @@ impl Simple {
     /// SIMPLE with these settings. With a guidance, the intent network of the models guides inverse planning.
     #[must_use]
     pub fn new(settings: InferenceSettings, guidance: Option<Guidance>, models: &Arc<Models>) -> Self {
-        Self { settings, forecast: ForecastSettings::default(), guidance, models: Arc::clone(models) }
+        let (forecast, knowledge) = (ForecastSettings::default(), KnowledgeSettings::default());
+        Self { settings, forecast, knowledge, guidance, models: Arc::clone(models) }
     }
 
     /// The method `simple`, the first of [`Simple::NAMES`], with the models that come with the program.
@@ -187,24 +188,21 @@ impl Recogniser for Simple {
     }
 }
 
-impl BeliefReader for Simple {
-    fn settings(&self) -> Value {
-        Recogniser::settings(self)
-    }
-
-    fn ticks(&self) -> usize {
-        self.settings.ticks()
-    }
-
-    /// The particles of minds that explain the motion, averaged over what each agent may know of objects
-    /// beside what it sees. Goals are those of the likeliest hypothesis.
-    fn read_beliefs(
+impl Simple {
+    /// The evidence that the motion of an event gives about its agents' beliefs of an order after some steps,
+    /// with details of the inference; `None` if `tick` cancelled it. Goals are those of the likeliest
+    /// hypothesis.
+    ///
+    /// # Errors
+    /// [`MethodError`] if nothing explains the event.
+    pub fn belief_evidence(
         &self,
         observed: &ObservedEvent,
+        order: BeliefOrder,
         steps: &[usize],
         seed: u64,
         tick: ProgressCallback<'_>,
-    ) -> MethodResult<Vec<Beliefs>> {
+    ) -> MethodResult<BeliefEvidence> {
         let prepared = self.prepare(observed, seed);
         let inference = self.infer(&prepared, seed, &mut *tick).map_err(MethodError::new)?;
         let Some(inference) = inference else { return Ok(None) };
@@ -220,40 +218,40 @@ impl BeliefReader for Simple {
             Algorithm::InversePlanning(planning) => planning,
             Algorithm::Chains(_) => InversePlanningSettings::default(),
         };
-        let mut weighted = Vec::with_capacity(AGENT_COUNT);
-        for agent in AgentId::ALL {
-            let of_agent = knowledge::weigh(&prepared, likeliest, agent, &planning, &mut *tick);
-            let Some(of_agent) = of_agent.map_err(MethodError::new)? else { return Ok(None) };
-            weighted.push(of_agent);
-        }
-        let objects = observed.object_sizes().len();
-        let physics = observed.physics([0.0; AGENT_COUNT]);
-        let beliefs = |&step: &usize| {
-            AgentId::ALL.map(|agent| {
-                let seen = observed_set(&physics, &prepared.motion().states[step], agent);
-                let of = |entity: Entity| {
-                    let mut places = [0.0; PLACES];
-                    for (beliefs, probability) in &weighted[agent.index()] {
-                        let particles = beliefs.after(step).particles();
-                        let shares = whereabouts(particles, entity, seen.contains(entity));
-                        places
-                            .iter_mut()
-                            .zip(shares)
-                            .for_each(|(place, share)| *place += probability * share);
-                    }
-                    places
-                };
-                others(agent, objects).map(of).collect()
-            })
-        };
-        let answers = steps.iter().map(beliefs).collect();
-        let knows = |of_agent: &knowledge::WeightedBeliefs| {
-            let of: Vec<f64> = of_agent.iter().map(|(_, probability)| *probability).collect();
-            json!({ "own": of[0], "start": of[1], "objects": of[2] })
-        };
-        let mut details = details(&prepared, &inference);
-        details["sees"] = weighted.iter().map(knows).collect();
-        Ok(Some((answers, details)))
+        let evidence = knowledge::evidence(&prepared, likeliest, (order, steps), &planning, &mut *tick);
+        let evidence = evidence.map_err(MethodError::new)?;
+        Ok(evidence.map(|evidence| (evidence, details(&prepared, &inference))))
+    }
+}
+
+impl BeliefReader for Simple {
+    fn settings(&self) -> Value {
+        json!({ "inference": Recogniser::settings(self), "knowledge": self.knowledge })
+    }
+
+    fn ticks(&self) -> usize {
+        self.settings.ticks()
+    }
+
+    /// The particles of minds that explain the motion, averaged over what each agent may know of objects
+    /// beside what it sees.
+    fn read_beliefs(
+        &self,
+        observed: &ObservedEvent,
+        order: BeliefOrder,
+        steps: &[usize],
+        seed: u64,
+        tick: ProgressCallback<'_>,
+    ) -> MethodResult<Vec<Beliefs>> {
+        let found = self.belief_evidence(observed, order, steps, seed, tick)?;
+        Ok(found.map(|(evidence, mut details)| {
+            let knows = AgentId::ALL.map(|agent| {
+                let [own, start, objects] = evidence.knowledge(agent, &self.knowledge);
+                json!({ "own": own, "start": start, "objects": objects })
+            });
+            details["sees"] = json!(knows);
+            (evidence.beliefs(&self.knowledge), details)
+        }))
     }
 }
 
