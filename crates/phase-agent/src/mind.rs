@@ -100,6 +100,11 @@ impl<D: Dynamics> Mind<D> {
         self
     }
 
+    /// Sets the steps that an agent without knowledge of the other's goal has watched, less those of acting.
+    pub fn has_watched(&mut self, steps: u32) {
+        self.ignorance.iter_mut().for_each(|ignorance| ignorance.watched = steps);
+    }
+
     /// The agent's model of the dynamics.
     pub const fn dynamics(&self) -> &D {
         &self.dynamics

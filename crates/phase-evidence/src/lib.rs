@@ -4,10 +4,11 @@
 //! [`mod@holding`] which agent held what and when, [`mod@contact`] which entities touched, [`mod@blocking`]
 //! which agent obstructed the other, [`mod@pursuit`] which agent pursued the other, [`mod@exploration`] which
 //! region an agent explored first, [`mod@search`] where it looks for what was moved, [`mod@motion`] how fast
-//! and how far an agent moved and [`mod@rest`] how quietly an event ended. [`Parting`](parting::Parting) tells
-//! where two events that begin alike part, and [`Effect`] compares an event with the same one in which an
-//! agent did nothing, which distinguishes help from mere presence. [`mod@selection`] checks whether an event shows its label: whether the intended social
-//! event is visible in it, and [`Narrative`] tells an event in words.
+//! and how far an agent moved and [`mod@rest`] how quietly an event ended.
+//! [`Parting`](parting::Parting) tells where two events that begin alike part, and [`Effect`] compares an
+//! event with the same one in which an agent did nothing, which distinguishes help from mere presence.
+//! [`mod@selection`] checks whether an event shows its label: whether the intended social event is visible in
+//! it, and [`Narrative`] tells an event in words.
 //!
 //! Key design decision: evidence does not depend on intentions. An event in which helping was intended but
 //! had no effect shows no help. Only [`Discovery`], of an agent that finds out what the other wants, reads

@@ -80,6 +80,10 @@ pub trait Mind: core::fmt::Debug + Send {
     /// decision has left it, if this is the second agent. Minds with other random numbers ignore it.
     fn begin_at(&mut self, _position: u64) {}
 
+    /// Sets the steps that an agent that does not know the other's goal has watched, less those in which it
+    /// has acted since, where its own decisions have not made them. Other minds ignore it.
+    fn has_watched(&mut self, _steps: u32) {}
+
     /// A copy of this mind, which decides as this one.
     fn boxed(&self) -> Box<dyn Mind>;
 }

@@ -1,8 +1,11 @@
 //! The answer of an inference: the posterior, and what is known of its parts.
 
-use crate::{Hypothesis, ImaginedAgents, Posterior, ReportModel, impression::Impression};
-use phase_model::Judgement;
+use crate::{
+    Hypothesis, ImaginedAgents, Posterior, ReportModel, impression::Impression, uninformed::UninformedBeliefs,
+};
+use phase_model::{AGENT_COUNT, Attitude, Goal, Intent, Judgement, Level};
 use phase_statistics::{log_softmax, log_sum_exp};
+use std::collections::BTreeMap;
 
 /// The result of an inference: a posterior over hypotheses, averaged over the kinds of minds.
 ///
@@ -18,6 +21,9 @@ pub struct Inference {
     /// The impression that the event made while it was watched; `None` for Algorithm 2, which sees it at
     /// once, and before the first decision.
     pub impression: Option<Impression>,
+    /// For each agent what it is taken to know of the other's goal if it helps or hinders; `None` where all
+    /// agents are imagined to know it.
+    pub knowledge: Option<[KnowledgeOfGoal; AGENT_COUNT]>,
     /// The number of chains that accepted their proposal, for each iteration of Algorithm 2; empty for
     /// inverse planning.
     pub accepted: Vec<usize>,
@@ -48,6 +54,54 @@ pub struct MindPosterior {
     pub probability: f64,
     /// P(Y | motion, kind).
     pub posterior: Posterior,
+}
+
+/// The knowledge of the other's goal that an agent is taken to have if it helps or hinders.
+#[derive(Clone, PartialEq, Debug, Default)]
+pub struct KnowledgeOfGoal {
+    /// Probability that the agent helps or hinders, 0 to 1. All others are given that it does.
+    pub social: f64,
+    /// Probability that it knows the other's goal, 0 to 1.
+    pub knows: f64,
+    /// Probability of each level of reasoning at which it does not, 0 to 1. Levels 1 and 2 of a helper do not
+    /// differ; both are counted as level 1.
+    pub levels: [f64; Level::ALL.len()],
+    /// The intents that it takes the other to have at the end, with their probabilities: the other's goal if
+    /// it knows that, else what its particles suppose.
+    pub believed: BTreeMap<Intent, f64>,
+}
+
+impl KnowledgeOfGoal {
+    /// Adds a hypothesis in which the agent is social: its weight, the other's goal, the probabilities of
+    /// levels of an agent that does not know it, and what such an agent believes.
+    pub(crate) fn add(
+        &mut self,
+        weight: f64,
+        goal: Goal,
+        levels: [f64; Level::ALL.len()],
+        uninformed: Option<&UninformedBeliefs>,
+    ) {
+        let knows = 1.0 - levels.iter().sum::<f64>();
+        self.social += weight;
+        self.knows += weight * knows;
+        *self.believed.entry(Intent { attitude: Attitude::Neutral, goal }).or_default() += weight * knows;
+        for (level, share) in Level::ALL.into_iter().zip(levels) {
+            self.levels[usize::from(u8::from(level))] += weight * share;
+            let intents = uninformed.filter(|_| share > 0.0).map(|beliefs| beliefs.intents(level));
+            for (intent, probability) in intents.into_iter().flatten() {
+                *self.believed.entry(intent).or_default() += weight * share * probability;
+            }
+        }
+    }
+
+    /// All but the probability that the agent is social given that it is; unchanged if it cannot be.
+    pub(crate) fn conditional(mut self) -> Self {
+        if self.social > 0.0 {
+            let shares = self.levels.iter_mut().chain(self.believed.values_mut()).chain([&mut self.knows]);
+            shares.for_each(|share| *share /= self.social);
+        }
+        self
+    }
 }
 
 /// The evidence that one kind of minds finds in an event: ln P(Y) P(motion | Y, kind) of every hypothesis but
@@ -81,7 +135,8 @@ pub(crate) fn foreign(
     impression: Option<Impression>,
 ) -> Inference {
     let minds = vec![MindPosterior { agents, probability: 1.0, posterior: posterior.clone() }];
-    Inference { posterior, minds, impression, accepted: Vec::new(), simulated: 0, foreign: true }
+    let (knowledge, accepted) = (None, Vec::new());
+    Inference { posterior, minds, impression, knowledge, accepted, simulated: 0, foreign: true }
 }
 
 /// The answer of all kinds of minds together.
@@ -97,5 +152,6 @@ pub(crate) fn average(
         posterior: Posterior::new(kind.joint),
     };
     let minds = agents.iter().zip(kinds).zip(probabilities).map(of_kind).collect();
-    Inference { posterior, minds, impression, accepted: Vec::new(), simulated: 0, foreign: false }
+    let (knowledge, accepted) = (None, Vec::new());
+    Inference { posterior, minds, impression, knowledge, accepted, simulated: 0, foreign: false }
 }

@@ -35,15 +35,16 @@ impl EstimatedBeliefs {
         let seen = observe(minds.kind(), &physics, &states[0], agent);
         let first = belief(observed.layout(), &physics, minds, &seen, Some(&states[0]), &mut random);
         let mut beliefs = Self { steps: vec![(first, random)] };
-        beliefs.follow(states, 1);
+        beliefs.follow(states, &[], 1);
         beliefs
     }
 
-    /// The beliefs of an agent of a scene, with the senses that the scene gives it; otherwise as
-    /// [`new`](Self::new).
+    /// The beliefs of an agent of a scene, with the senses that the scene gives it, after these actions of
+    /// its own; otherwise as [`new`](Self::new).
     pub(crate) fn in_scene(
         scene: &Scene,
         states: &[State],
+        actions: &[Action],
         agent: AgentId,
         minds: &MindParameters,
         seed: u64,
@@ -52,20 +53,21 @@ impl EstimatedBeliefs {
         let seen = first_observation(scene, minds.kind(), &states[0], agent);
         let first = belief_in(scene, minds, &seen, Some(&states[0]), &mut random);
         let mut beliefs = Self { steps: vec![(first, random)] };
-        beliefs.follow(states, 1);
+        beliefs.follow(states, actions, 1);
         beliefs
     }
 
     /// Follows an event of which more has been observed, and of whose states so many, at least one, are what
-    /// they were.
-    pub(crate) fn follow(&mut self, states: &[State], unchanged: usize) {
+    /// they were. `actions` are the agent's own. They matter only to an agent that infers the other's
+    /// intent from what both do; where they are missing it is taken to apply no force.
+    pub(crate) fn follow(&mut self, states: &[State], actions: &[Action], unchanged: usize) {
         self.steps.truncate(unchanged.max(1));
         for state in &states[self.steps.len()..] {
             let (mut belief, mut random) = self.steps[self.steps.len() - 1].clone();
-            // Which action it was does not matter: its outcome is observed.
+            let action = actions.get(self.steps.len() - 1).copied().unwrap_or(Action::NoForce);
             let observation: Observation = belief.observe(state);
             let before = states[self.steps.len() - 1];
-            belief.update(Action::NoForce, &observation, &between(&before, state), &mut random);
+            belief.update(action, &observation, &between(&before, state), &mut random);
             self.steps.push((belief, random));
         }
     }
@@ -78,7 +80,13 @@ impl EstimatedBeliefs {
         let observation = known.observe(state);
         let mut particles = known.particles().to_vec();
         particles.iter_mut().for_each(|particle| overwrite(particle, &observation));
-        Outlook { particles, observed: observation.observed, contest: known.contest() }
+        let suppositions = known.suppositions().to_vec();
+        Outlook { particles, observed: observation.observed, contest: known.contest(), suppositions }
+    }
+
+    /// The belief at the end.
+    pub(crate) fn last(&self) -> &dyn BeliefState {
+        &*self.steps[self.steps.len() - 1].0
     }
 
     /// The belief after the given number of steps, to continue from.

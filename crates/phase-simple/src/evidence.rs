@@ -2,10 +2,12 @@
 
 use crate::{
     Hypothesis, Intent, InversePlanningSettings, PreparedEvent,
+    beliefs::EstimatedBeliefs,
     choice::{self, ByChoice, Chance},
     simulation_run::SimulationRun,
+    uninformed,
 };
-use phase_model::{AGENT_COUNT, AgentId, Goal, Strength};
+use phase_model::{AGENT_COUNT, AgentId, Attitude, Goal, Level, Strength};
 use phase_pomcp::PomcpError;
 
 /// Decisions of simulated minds that an inference may spend. One takes some milliseconds.
@@ -147,6 +149,8 @@ impl Stride {
 pub struct IntentEvidence {
     agent: AgentId,
     run: SimulationRun,
+    /// The level of reasoning, if the agent does not know the other's goal.
+    level: Option<Level>,
     /// By decision.
     chances: Vec<Option<Chance>>,
 }
@@ -165,7 +169,22 @@ impl IntentEvidence {
         strengths: [Strength; AGENT_COUNT],
     ) -> Result<Self, PomcpError> {
         let run = prepared.run(&Hypothesis::of_intent(intent, agent, others, strengths))?;
-        Ok(Self { agent, run, chances: Vec::new() })
+        Ok(Self { agent, run, level: None, chances: Vec::new() })
+    }
+
+    /// Evidence of no decision yet on an agent that helps or hinders whatever it takes the other to want,
+    /// which it does not know. The event has to be prepared for such agents.
+    ///
+    /// # Errors
+    /// Invalid parameters of the agents' search.
+    pub(crate) fn uninformed(
+        prepared: &PreparedEvent,
+        agent: AgentId,
+        attitude: Attitude,
+        level: Level,
+    ) -> Result<Self, PomcpError> {
+        let scene = uninformed::scene(prepared.observed(), prepared.motion(), agent, attitude, level);
+        Ok(Self { agent, run: prepared.run_in(&scene)?, level: Some(level), chances: Vec::new() })
     }
 
     /// Lets the mind of the intent decide in every state that is looked at and is not yet part of the
@@ -200,9 +219,18 @@ impl IntentEvidence {
             if !budget.take() {
                 return Ok(false);
             }
-            let (action, thought) = prepared.decide(&mut self.run, self.agent, likelihoods.step(decision))?;
+            let step = likelihoods.step(decision);
+            let policy = match self.level.zip(prepared.uninformed(self.agent)) {
+                Some((level, beliefs)) => {
+                    policy_without_knowledge(prepared, &mut self.run, self.agent, step, beliefs.at(level))?
+                }
+                None => {
+                    let (action, thought) = prepared.decide(&mut self.run, self.agent, step)?;
+                    choice::policy_of(action, &thought)
+                }
+            };
             let of_step = &likelihoods.of_decisions[decision][self.agent];
-            self.chances[decision] = Some(Chance::of(&choice::policy_of(action, &thought), of_step));
+            self.chances[decision] = Some(Chance::of(&policy, of_step));
         }
         Ok(true)
     }
@@ -239,6 +267,32 @@ impl IntentEvidence {
         let looked_at = stride.of(self.chances.len()).filter_map(|decision| self.chances[decision]);
         looked_at.map(move |chance| chance.log(lapse_rate))
     }
+}
+
+/// More steps than any event has.
+const LONG: u32 = 1_000_000;
+
+/// The policy of a helper or hinderer that does not know the other's goal. A viewer does not know how long it
+/// has already watched: where it depends on that whether the agent acts, both are as likely.
+fn policy_without_knowledge(
+    prepared: &PreparedEvent,
+    run: &mut SimulationRun,
+    agent: AgentId,
+    step: usize,
+    beliefs: &EstimatedBeliefs,
+) -> Result<ByChoice, PomcpError> {
+    let mut decide = |watched: u32| {
+        run.has_watched(agent, watched);
+        prepared.decide_believing(run, agent, step, beliefs)
+    };
+    let (action, watchful) = decide(0)?;
+    let mut policy = choice::policy_of(action, &watchful);
+    if watchful.plan.is_empty() {
+        let (action, eager) = decide(LONG)?;
+        let of_eager = choice::policy_of(action, &eager);
+        policy.iter_mut().zip(of_eager).for_each(|(one, other)| *one = f64::midpoint(*one, other));
+    }
+    Ok(policy)
 }
 
 #[cfg(test)]

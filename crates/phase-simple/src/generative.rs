@@ -4,11 +4,12 @@ use crate::{
     Hypothesis, ImaginedAgents, InverseDynamics,
     beliefs::EstimatedBeliefs,
     simulation_run::{Outlook, SimulationRun},
+    uninformed::UninformedBeliefs,
 };
 use phase_event::{ObservedEvent, Thought};
-use phase_minds::{BeliefState, MindParameters, SearchMemo};
+use phase_minds::{BeliefState, MindKind, MindParameters, SearchMemo};
 use phase_model::{
-    AGENT_COUNT, Action, AgentId, Body, Entity, MAX_ENTITIES, Vec2,
+    AGENT_COUNT, Action, AgentId, Body, Entity, MAX_ENTITIES, Scene, Vec2,
     random::{self, Pcg64Mcg, Purpose},
 };
 use phase_pomcp::PomcpError;
@@ -20,6 +21,8 @@ pub struct PreparedEvent {
     observed: Arc<ObservedEvent>,
     motion: Arc<InverseDynamics>,
     beliefs: Arc<[EstimatedBeliefs; AGENT_COUNT]>,
+    /// Those of a helper or hinderer that does not know the other's goal, if such agents are imagined.
+    uninformed: Option<Arc<[UninformedBeliefs; AGENT_COUNT]>>,
     agents: ImaginedAgents,
     seed: u64,
     /// The search results that the minds of all intents share.
@@ -54,7 +57,24 @@ impl PreparedEvent {
     ) -> Self {
         let beliefs = AgentId::ALL
             .map(|agent| EstimatedBeliefs::new(&observed, &motion.states, agent, &agents.minds, seed));
-        Self { observed, motion, beliefs: Arc::new(beliefs), agents, seed, memo: SearchMemo::default() }
+        let (beliefs, memo) = (Arc::new(beliefs), SearchMemo::default());
+        Self { observed, motion, beliefs, uninformed: None, agents, seed, memo }
+    }
+
+    /// This event prepared also for helpers and hinderers that do not know the other's goal, if its agents
+    /// have minds of our own kind; others always know it.
+    pub(crate) fn with_uninformed(mut self) -> Self {
+        if self.agents.minds.kind() == MindKind::Phase {
+            let of =
+                |agent| UninformedBeliefs::new(&self.observed, &self.motion, agent, &self.agents, self.seed);
+            self.uninformed = Some(Arc::new(AgentId::ALL.map(of)));
+        }
+        self
+    }
+
+    /// The beliefs of a helper or hinderer without knowledge of the other's goal, if such are imagined.
+    pub(crate) fn uninformed(&self, agent: AgentId) -> Option<&UninformedBeliefs> {
+        self.uninformed.as_ref().map(|of_agents| &of_agents[agent])
     }
 
     /// Follows an event of which more has been observed, and of whose states so many are explained as before.
@@ -65,8 +85,17 @@ impl PreparedEvent {
         unchanged: usize,
     ) {
         let beliefs = Arc::make_mut(&mut self.beliefs);
-        beliefs.iter_mut().for_each(|beliefs| beliefs.follow(&motion.states, unchanged));
+        beliefs.iter_mut().for_each(|beliefs| beliefs.follow(&motion.states, &[], unchanged));
+        let same_strengths = motion.strengths() == self.motion.strengths();
         (self.observed, self.motion) = (observed, motion);
+        match &mut self.uninformed {
+            Some(uninformed) if same_strengths => {
+                let of_agents = Arc::make_mut(uninformed).iter_mut();
+                of_agents.for_each(|beliefs| beliefs.follow(&self.motion, unchanged));
+            }
+            Some(_) => *self = self.clone().with_uninformed(),
+            None => {}
+        }
     }
 
     /// The agents that it was prepared for.
@@ -237,6 +266,11 @@ impl PreparedEvent {
         SimulationRun::new(&self.observed, hypothesis, self.agents, self.seed, start, memo)
     }
 
+    /// Minds that decide as those of [`run`](Self::run), in a scene.
+    pub(crate) fn run_in(&self, scene: &Scene) -> Result<SimulationRun, PomcpError> {
+        SimulationRun::in_scene(scene, self.agents, self.seed, self.motion.states[0], None)
+    }
+
     /// Lets an agent decide at a step, and nothing happen.
     pub(crate) fn decide(
         &self,
@@ -309,6 +343,7 @@ impl PreparedEvent {
                     particles: beliefs[agent].particles().to_vec(),
                     observed: observation.observed,
                     contest: beliefs[agent].contest(),
+                    suppositions: Vec::new(),
                 }
             });
             let (means, actions) = run.step(&outlooks)?;

@@ -57,7 +57,7 @@ pub fn infer(
     match &settings.algorithm {
         Algorithm::InversePlanning(planning) => {
             let guide = cues.guide.as_ref().map(|guide| GuideCourse::new(guide, prepared.observed()));
-            let mut planners = Planners::new(prepared, planning, settings.alternative);
+            let mut planners = Planners::new(prepared, planning, settings);
             Ok(planners.weigh(gamma, guide.as_ref(), &mut Budget::UNLIMITED.clone(), tick)?)
         }
         Algorithm::Chains(chains) => Ok(run_chains(prepared, cues.strengths, seed, gamma, chains, tick)?),
@@ -96,7 +96,8 @@ fn run_chains(
     let minds =
         vec![MindPosterior { agents: *prepared.agents(), probability: 1.0, posterior: posterior.clone() }];
     let simulated = simulations.count();
-    Ok(Some(Inference { posterior, minds, impression: None, accepted, simulated, foreign: false }))
+    let (impression, knowledge) = (None, None);
+    Ok(Some(Inference { posterior, minds, impression, knowledge, accepted, simulated, foreign: false }))
 }
 
 /// Prepares an event and infers what explains it, without a guide: [`PreparedEvent::new`] and [`infer`] in

@@ -13,16 +13,20 @@ use crate::{
     evidence::{ActionLikelihoods, Budget, Stride},
     generative::PreparedEvent,
     guide::Guess,
+    ignorance::{Explained, UninformedEvidence},
     intent::{WeightedIntents, joint_logs},
     physical_goals,
 };
 use core::ops::ControlFlow;
-use phase_model::{AGENT_COUNT, AgentId, Attitude, Goal, Strength};
+use phase_model::{AGENT_COUNT, AgentId, Attitude, Goal, Level, Strength};
 use phase_pomcp::PomcpError;
 use std::collections::{BTreeMap, btree_map::Entry};
 
 /// Whose intent it is, and the other's goal if the intent does not say.
 type Key = (AgentId, Intent, Option<Goal>);
+
+/// Probability from which a hypothesis is likely enough for a close look at what its agents know.
+const LIKELY: f64 = 0.05;
 
 /// The evidence on an event for one kind of minds.
 #[derive(Debug)]
@@ -32,6 +36,8 @@ pub(crate) struct InversePlanner {
     strengths: [Strength; AGENT_COUNT],
     likelihoods: ActionLikelihoods,
     evidence: BTreeMap<Key, IntentEvidence>,
+    /// The evidence on agents that do not know each other's goals, if such are imagined.
+    uninformed: Option<[UninformedEvidence; AGENT_COUNT]>,
     /// The evidence that the last answer used.
     asked: [Vec<Asked>; AGENT_COUNT],
     /// The goals that agents who are not social attribute to each other in it.
@@ -63,6 +69,7 @@ impl InversePlanner {
             settings: *settings,
             likelihoods: ActionLikelihoods::new(settings),
             evidence: BTreeMap::new(),
+            uninformed: None,
             asked: [Vec::new(), Vec::new()],
             assumed: None,
         }
@@ -84,6 +91,8 @@ impl InversePlanner {
         let strengths = self.prepared.motion().strengths();
         if strengths == self.strengths {
             self.evidence.values_mut().for_each(|evidence| evidence.forget(&self.likelihoods, rows));
+            let uninformed = self.uninformed.iter_mut().flatten();
+            uninformed.for_each(|evidence| evidence.forget(&self.likelihoods, rows));
             self.likelihoods.forget(rows);
         } else {
             *self = Self::new(self.prepared.clone(), &self.settings);
@@ -147,6 +156,78 @@ impl InversePlanner {
             }
         }
         Ok(true)
+    }
+
+    /// Catches up with agents that do not know each other's goals, if such are imagined, as far as the budget
+    /// suffices.
+    ///
+    /// # Errors
+    /// Invalid parameters of the agents' search.
+    pub(crate) fn look_at_uninformed(&mut self, budget: &mut Budget) -> Result<(), PomcpError> {
+        for agent in AgentId::ALL {
+            if self.prepared.uninformed(agent).is_none() {
+                return Ok(());
+            }
+        }
+        if self.uninformed.is_none() {
+            let of = |agent| UninformedEvidence::new(&self.prepared, agent);
+            self.uninformed = Some([of(AgentId::ZERO)?, of(AgentId::ONE)?]);
+        }
+        for evidence in self.uninformed.iter_mut().flatten() {
+            evidence.follow(&self.prepared, &self.likelihoods, budget)?;
+        }
+        Ok(())
+    }
+
+    /// Looks at all decisions of the helpers and hinderers that are likely, if such may not know the other's
+    /// goal: whether they do often shows in few decisions.
+    ///
+    /// # Errors
+    /// Invalid parameters of the agents' search.
+    pub(crate) fn settle_knowledge(
+        &mut self,
+        posterior: &Posterior,
+        budget: &mut Budget,
+    ) -> Result<(), PomcpError> {
+        if self.uninformed.is_none() {
+            return Ok(());
+        }
+        for (hypothesis, _) in posterior.hypotheses.iter().filter(|(_, weight)| *weight >= LIKELY) {
+            let Some(agent) = hypothesis.social_agent() else { continue };
+            let intent =
+                Intent { attitude: hypothesis.attitudes[agent], goal: hypothesis.goals[agent.other()] };
+            let Some(place) = self.asked[agent].iter().position(|asked| asked.key.1 == intent) else {
+                continue;
+            };
+            let every = Asked { stride: Stride::EVERY, ..self.asked[agent][place] };
+            if self.follow_intent(every, budget)? {
+                self.asked[agent][place] = every;
+            }
+        }
+        Ok(())
+    }
+
+    /// For an intent of an agent that was asked for the probability of each level of reasoning, at which the
+    /// agent does not know the other's goal; the rest is that it knows.
+    pub(crate) fn levels(&self, agent: AgentId, intent: Intent) -> [f64; Level::ALL.len()] {
+        let asked = self.asked[agent].iter().find(|asked| asked.key.1 == intent);
+        let explained = asked.map(|asked| self.explain(agent, asked, self.decisions(), &self.settings));
+        explained.map_or([0.0; Level::ALL.len()], |explained| explained.levels)
+    }
+
+    fn explain(
+        &self,
+        agent: AgentId,
+        &Asked { key, stride }: &Asked,
+        decisions: usize,
+        settings: &InversePlanningSettings,
+    ) -> Explained {
+        let evidence = self.evidence.get(&key);
+        let log = evidence.map_or(0.0, |it| it.log_likelihood(decisions, stride, settings));
+        match &self.uninformed {
+            Some(uninformed) => uninformed[agent].explain(key.1.attitude, log, decisions, settings),
+            None => Explained { log, levels: [0.0; Level::ALL.len()] },
+        }
     }
 
     /// Looks at an intent that was asked for more closely, if that is possible within the budget.
@@ -221,14 +302,17 @@ impl InversePlanner {
         let settings = InversePlanningSettings { lapse_rate, ..self.settings };
         let deviation = self.deviation(lapse_rate);
         AgentId::ALL.map(|agent| {
-            let log = |&Asked { key, stride }: &Asked| {
+            let log = |asked: &Asked| {
+                let Asked { key, stride } = *asked;
                 let evidence = self.evidence.get(&key);
-                let log = evidence.map_or(0.0, |it| it.log_likelihood(decisions, stride, &settings));
+                let Explained { log, levels } = self.explain(agent, asked, decisions, &settings);
                 let looked_at = evidence.map_or(0, |it| it.logs(stride, lapse_rate).count()).max(1) as f64;
                 let all = self.decisions() as f64;
                 // Of a mean of some of so many decisions.
                 let error = deviation * libm::sqrt((1.0 / looked_at - 1.0 / all).max(0.0));
-                IntentLog { intent: key.1, log, error: settings.weight_of_decision() * all * error }
+                // All decisions of agents that do not know are looked at.
+                let knows = 1.0 - levels.iter().sum::<f64>();
+                IntentLog { intent: key.1, log, error: knows * settings.weight_of_decision() * all * error }
             };
             self.asked[agent].iter().map(log).collect()
         })

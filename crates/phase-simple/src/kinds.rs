@@ -1,9 +1,9 @@
 //! Inverse planning with every kind of minds, and what the guide said while the event was watched.
 
 use crate::{
-    AlternativeAgents, Budget, Guidance, Guide, ImaginedAgents, Intent, InversePlanningSettings, Posterior,
-    Proposal, UniformStrength,
-    answer::{self, Inference, KindEvidence, average, log_evidence, mixture},
+    AlternativeAgents, Budget, Guidance, Guide, ImaginedAgents, InferenceSettings, Intent,
+    InversePlanningSettings, Posterior, Proposal, UniformStrength,
+    answer::{self, Inference, KindEvidence, KnowledgeOfGoal, average, log_evidence, mixture},
     generative::PreparedEvent,
     guide::Guess,
     impression::Impression,
@@ -97,12 +97,16 @@ impl Planners {
     pub(crate) fn new(
         prepared: &PreparedEvent,
         planning: &InversePlanningSettings,
-        alternative: Option<AlternativeAgents>,
+        settings: &InferenceSettings,
     ) -> Self {
-        let mut planners = vec![InversePlanner::new(prepared.clone(), planning)];
+        let alternative = settings.alternative;
+        let uninformed = |prepared: PreparedEvent| {
+            if settings.latent_knowledge { prepared.with_uninformed() } else { prepared }
+        };
+        let mut planners = vec![InversePlanner::new(uninformed(prepared.clone()), planning)];
         if let Some(AlternativeAgents { agents, lapse_rate, .. }) = alternative {
             let planning = InversePlanningSettings { lapse_rate, ..*planning };
-            planners.push(InversePlanner::new(prepared.with_agents(agents), &planning));
+            planners.push(InversePlanner::new(uninformed(prepared.with_agents(agents)), &planning));
         }
         let agents = planners.iter().map(|planner| *planner.prepared.agents()).collect();
         Self { planners, agents, comparison: alternative.map(|it| it.comparison_lapse_rate) }
@@ -224,6 +228,7 @@ impl Planners {
             if !planner.look(budget, tick)? {
                 return Ok(None);
             }
+            planner.look_at_uninformed(budget)?;
         }
         let tolerated = self.planners[0].tolerated_change();
         for pass in 0..=REFINEMENT_PASSES {
@@ -245,9 +250,40 @@ impl Planners {
             mixture(&self.evidence(decisions, guess.as_ref())).0.judged(&observed)
         });
         let impression = Impression::of(&observed, course);
-        let evidence = self.evidence(first.decisions(), last.as_ref());
+        let decisions = first.decisions();
+        let likely = mixture(&self.evidence(decisions, last.as_ref())).0;
+        for planner in &mut self.planners {
+            planner.settle_knowledge(&likely, budget)?;
+        }
+        let evidence = self.evidence(decisions, last.as_ref());
         let inference = average(&self.agents, evidence, impression);
-        Ok(Some(Inference { posterior: inference.posterior.judged(&observed), ..inference }))
+        let knowledge = self.knowledge(&inference);
+        Ok(Some(Inference { posterior: inference.posterior.judged(&observed), knowledge, ..inference }))
+    }
+}
+
+impl Planners {
+    /// The knowledge that each agent is taken to have; `None` if all agents are imagined to know it.
+    fn knowledge(&self, inference: &Inference) -> Option<[KnowledgeOfGoal; AGENT_COUNT]> {
+        let prepared = self.planners.iter().map(|planner| &planner.prepared);
+        let informed = prepared.clone().all(|prepared| prepared.uninformed(AgentId::ZERO).is_none());
+        let parts = |agent: AgentId| {
+            let mut knowledge = KnowledgeOfGoal::default();
+            for (planner, minds) in self.planners.iter().zip(&inference.minds) {
+                for (hypothesis, weight) in &minds.posterior.hypotheses {
+                    if hypothesis.social_agent() != Some(agent) {
+                        continue;
+                    }
+                    let weight = minds.probability * weight;
+                    let goal = hypothesis.goals[agent.other()];
+                    let attitude = hypothesis.attitudes[agent];
+                    let levels = planner.levels(agent, Intent { attitude, goal });
+                    knowledge.add(weight, goal, levels, planner.prepared.uninformed(agent));
+                }
+            }
+            knowledge.conditional()
+        };
+        (!informed).then(|| AgentId::ALL.map(parts))
     }
 }
 
@@ -290,7 +326,7 @@ mod tests {
         let mut budget = Budget { decisions: Some(PLENTY) };
         let gamma = InferenceSettings::default().gamma;
         let tick = &mut || ControlFlow::Continue(());
-        let mut planners = Planners::new(prepared, &planning, None);
+        let mut planners = Planners::new(prepared, &planning, &InferenceSettings::default());
         let inference =
             planners.weigh(gamma, None, &mut budget, tick).expect("sound").expect("not cancelled");
         (inference, PLENTY - budget.decisions.unwrap_or(PLENTY))

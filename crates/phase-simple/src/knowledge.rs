@@ -131,7 +131,7 @@ fn beliefs_with(
     let mut scene = hypothesis.scene(prepared.observed());
     scene.agents[agent].awareness = Awareness { sees, ..Awareness::default() };
     let minds = &prepared.agents().minds;
-    EstimatedBeliefs::in_scene(&scene, &prepared.motion().states, agent, minds, prepared.seed())
+    EstimatedBeliefs::in_scene(&scene, &prepared.motion().states, &[], agent, minds, prepared.seed())
 }
 
 /// The decisions that an agent makes once it acts while an object is out of its sight; in the others beliefs

@@ -57,6 +57,7 @@ mod forecast;
 mod generative;
 mod guide;
 mod hypothesis;
+mod ignorance;
 mod impression;
 mod inference;
 pub mod intent;
@@ -76,8 +77,9 @@ mod settings;
 mod simulation_run;
 mod simulations;
 pub mod strength;
+mod uninformed;
 
-pub use answer::{Inference, MindPosterior};
+pub use answer::{Inference, KnowledgeOfGoal, MindPosterior};
 pub use evidence::{ActionLikelihoods, Budget, IntentEvidence};
 pub use forecast::{
     Continuation, ForecastSettings, Futures, continuations, futures, geometric_median, hindcast_error,

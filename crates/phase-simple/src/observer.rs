@@ -88,7 +88,7 @@ impl Observer {
         let observed = Arc::new(observed.clone());
         let motion = Arc::new(tracker.motion().clone());
         let prepared = PreparedEvent::with_motion(Arc::clone(&observed), motion, settings.agents, seed);
-        let planners = Planners::new(&prepared, &planning, settings.alternative);
+        let planners = Planners::new(&prepared, &planning, settings);
         let guide = guide.map(|guide| GuideCourse::new(guide, &observed));
         let budget = Budget { decisions: Some(BUDGET) };
         Ok(Self { observed, tracker, planners, guide, gamma: settings.gamma, budget })

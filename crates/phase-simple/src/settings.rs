@@ -62,6 +62,10 @@ pub struct InferenceSettings {
     /// over both. Of inverse planning alone; the chains of Algorithm 2 imagine one kind.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub alternative: Option<AlternativeAgents>,
+    /// Whether agents with minds of our own kind that help or hinder may not know the other's goal, with an
+    /// even prior: the answer averages over what they know. Of inverse planning alone.
+    #[serde(default, skip_serializing_if = "core::ops::Not::not")]
+    pub latent_knowledge: bool,
 }
 
 /// The agents that an inference imagines: their minds, and the bodies that carry out what the minds choose.
@@ -230,6 +234,12 @@ impl InferenceSettings {
         Self { alternative, ..Self::default() }
     }
 
+    /// As [`averaged`](Self::averaged), and over what helpers and hinderers know of the other's goal.
+    #[must_use]
+    pub fn averaged_over_knowledge() -> Self {
+        Self { latent_knowledge: true, ..Self::averaged() }
+    }
+
     /// These settings with these agents and no others.
     #[must_use]
     pub const fn with_agents(self, agents: ImaginedAgents) -> Self {
@@ -363,6 +373,7 @@ impl Default for InferenceSettings {
             gamma: GAMMA,
             agents: ImaginedAgents::of(MindKind::Phase),
             alternative: None,
+            latent_knowledge: false,
         }
     }
 }

@@ -3,9 +3,9 @@
 use crate::{Hypothesis, ImaginedAgents};
 use phase_event::{ObservedEvent, Thought};
 use phase_forward::{Forward, SolverCache};
-use phase_minds::{BeliefView, Contest, Mind, Recorder, SearchMemo, mind, mind_sharing};
+use phase_minds::{BeliefView, Contest, Mind, Recorder, SearchMemo, Supposition, mind, mind_sharing};
 use phase_model::{
-    AGENT_COUNT, Action, AgentBody, AgentId, BodySet, Layout, MAX_ENTITIES, State, Vec2,
+    AGENT_COUNT, Action, AgentBody, AgentId, BodySet, Layout, MAX_ENTITIES, Scene, State, Vec2,
     arena::SUBSTEPS,
     random::{self, Pcg64Mcg, Purpose},
 };
@@ -40,6 +40,8 @@ pub(crate) struct Outlook {
     pub(crate) particles: Vec<State>,
     pub(crate) observed: BodySet,
     pub(crate) contest: Contest,
+    /// The supposition of each particle about the other; empty if the agent knows the other's goal.
+    pub(crate) suppositions: Vec<Supposition>,
 }
 
 impl SimulationRun {
@@ -51,12 +53,22 @@ impl SimulationRun {
         state: State,
         memo: Option<&SearchMemo>,
     ) -> Result<Self, PomcpError> {
-        let scene = hypothesis.scene(observed);
+        Self::in_scene(&hypothesis.scene(observed), agents, seed, state, memo)
+    }
+
+    /// A simulation of a scene.
+    pub(crate) fn in_scene(
+        scene: &Scene,
+        agents: ImaginedAgents,
+        seed: u64,
+        state: State,
+        memo: Option<&SearchMemo>,
+    ) -> Result<Self, PomcpError> {
         let physics = scene.physics();
         let forward = Forward::new(&physics);
         let mind = |agent| match memo {
-            Some(memo) => mind_sharing(&scene, agent, &agents.minds, memo),
-            None => mind(&scene, agent, &agents.minds),
+            Some(memo) => mind_sharing(scene, agent, &agents.minds, memo),
+            None => mind(scene, agent, &agents.minds),
         };
         let minds = [mind(AgentId::ZERO)?, mind(AgentId::ONE)?];
         let random = AgentId::ALL.map(|agent| random::stream(seed, Purpose::Search, agent.number().into()));
@@ -90,6 +102,11 @@ impl SimulationRun {
         self.cache = self.forward.fresh_cache(&state);
     }
 
+    /// Tells an agent's mind for how many steps it has watched, less those in which it has acted since.
+    pub(crate) fn has_watched(&mut self, agent: AgentId, steps: u32) {
+        self.minds[agent].has_watched(steps);
+    }
+
     /// Both decide and act: the mean positions of all bodies over the step, and their actions.
     pub(crate) fn step(
         &mut self,
@@ -112,7 +129,7 @@ impl SimulationRun {
             particles: &outlook.particles,
             observed: outlook.observed,
             last_action: self.last_actions[agent],
-            suppositions: &[],
+            suppositions: &outlook.suppositions,
             contest: outlook.contest,
         };
         // The original's random numbers go on from the first agent's search to the second's.

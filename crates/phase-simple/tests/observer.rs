@@ -33,7 +33,7 @@ fn observed(variant: Variant, steps: usize) -> ObservedEvent {
 
 /// SIMPLE's settings with less search.
 fn settings() -> InferenceSettings {
-    let averaged = InferenceSettings::averaged();
+    let averaged = InferenceSettings::averaged_over_knowledge();
     let cheap = |agents: ImaginedAgents| {
         let minds = agents.minds.with_particles(5).with_simulations(10).searching_once();
         agents.with_minds(minds)

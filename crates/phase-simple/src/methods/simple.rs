@@ -3,8 +3,9 @@
 use super::variants::{VARIANTS, Variant};
 use crate::{
     Algorithm, AlternativeAgents, BeliefEvidence, Cues, ForecastSettings, Guidance, Guide, ImaginedAgents,
-    Inference, InferenceError, InferenceSettings, InversePlanningSettings, KnowledgeSettings, MindPosterior,
-    Models, ModelsError, Observer, ObserverError, PreparedEvent, futures, infer, knowledge,
+    Inference, InferenceError, InferenceSettings, InversePlanningSettings, KnowledgeOfGoal,
+    KnowledgeSettings, MindPosterior, Models, ModelsError, Observer, ObserverError, PreparedEvent, futures,
+    infer, knowledge,
 };
 use core::ops::ControlFlow;
 use phase_event::{
@@ -12,7 +13,7 @@ use phase_event::{
     ProgressCallback, Recogniser, SAMPLES,
 };
 use phase_minds::{MindKind, Recorder};
-use phase_model::{AgentId, Judgement};
+use phase_model::{AgentId, Intent, Judgement};
 use serde_json::{Value, json};
 use std::sync::Arc;
 
@@ -72,6 +73,7 @@ impl Simple {
     /// The variant of a name.
     ///
     /// - `simple` is inverse planning that averages over both kinds of minds, guided by the intent network;
+    ///   `simple-knowledge` also averages over whether helpers and hinderers know the other's goal;
     ///   `simple-unguided` lacks the network, and in `simple-points` the minds plan as if bodies passed
     ///   through each other.
     /// - `simple-initial`, `simple-global` and `simple-local` are Algorithm 2 of the paper and its ablation,
@@ -94,7 +96,8 @@ impl Simple {
     pub fn with_minds(mut self, kind: Option<MindKind>, recorder: Recorder, original_random: bool) -> Self {
         if let Some(kind) = kind {
             // The weights of an average over kinds are not those of one kind alone.
-            let alone = InferenceSettings::default();
+            let latent_knowledge = self.settings.latent_knowledge;
+            let alone = InferenceSettings { latent_knowledge, ..InferenceSettings::default() };
             let settings = if self.settings.alternative.is_some() { alone } else { self.settings };
             let agents = self.settings.agents;
             let one_kind = agents.with_minds(ImaginedAgents::of(kind).minds);
@@ -283,6 +286,20 @@ impl Forecaster for Simple {
     }
 }
 
+/// An agent's knowledge of the other's goal, with the likeliest of what it takes the other to want.
+fn described(KnowledgeOfGoal { social, knows, levels, believed }: &KnowledgeOfGoal) -> Value {
+    let mut intents: Vec<(&Intent, &f64)> = believed.iter().collect();
+    intents.sort_by(|a, b| b.1.total_cmp(a.1));
+    let intent = |(intent, probability): (&Intent, &f64)| {
+        let words = intent.to_string();
+        json!({
+            "alpha": intent.attitude.alpha(), "goal": intent.goal, "words": words, "probability": probability,
+        })
+    };
+    let intents: Vec<Value> = intents.into_iter().map(intent).collect();
+    json!({ "social": social, "knows": knows, "levels": levels, "believed": intents })
+}
+
 fn details(prepared: &PreparedEvent, inference: &Inference) -> Value {
     let hypothesis = |(hypothesis, weight): &(_, f64)| json!({ "hypothesis": hypothesis, "weight": weight });
     let hypotheses: Vec<Value> =
@@ -299,6 +316,9 @@ fn details(prepared: &PreparedEvent, inference: &Inference) -> Value {
         "accepted": inference.accepted,
         "simulated": inference.simulated,
     });
+    if let Some(knowledge) = &inference.knowledge {
+        details["knowledge"] = knowledge.iter().map(described).collect();
+    }
     if prepared.observed().noise().is_some() {
         let motion = prepared.motion();
         let steps = motion.residuals.len();

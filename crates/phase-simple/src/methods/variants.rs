@@ -12,11 +12,12 @@ pub(super) struct Variant {
     pub(super) settings: fn() -> InferenceSettings,
 }
 
-/// Every variant. `simple` averages over both kinds of minds; `simple-initial`, `simple-global` and
-/// `simple-local` are the paper's Algorithm 2 and its ablation with our own minds; `simple-published…` are
-/// Algorithm 2 and its ablation with the published simulator's minds.
-pub(super) const VARIANTS: [Variant; 10] = [
+/// Every variant. `simple` averages over both kinds of minds, `simple-knowledge` also over what agents know;
+/// `simple-initial`, `simple-global` and `simple-local` are the paper's Algorithm 2 and its ablation with our
+/// own minds; `simple-published…` are Algorithm 2 and its ablation with the published simulator's minds.
+pub(super) const VARIANTS: [Variant; 11] = [
     Variant { name: "simple", guided: true, settings: InferenceSettings::averaged },
+    Variant { name: "simple-knowledge", guided: true, settings: InferenceSettings::averaged_over_knowledge },
     unguided("simple-unguided", InferenceSettings::averaged),
     unguided("simple-points", || InferenceSettings::averaged().without_collisions()),
     unguided("simple-initial", || resynchronised(Update::Initial)),
