@@ -221,12 +221,14 @@ impl Case<'_> {
     }
 
     /// Whether the judged agent, once it acts, first sees the place where the object of its goal was at the
-    /// start, or the object, which by then has to be in another room.
+    /// start, or the object. The means is that the object was by then moved to another room, unseen by it.
     fn wrong_place(&self, goal: Goal, wanted: bool) -> Assessment {
         let waits = usize::from(self.scene.agents[self.part.judged].awareness.waits);
         let object = goal.subject();
-        if !search::was_moved(self.track, object, waits) {
-            return (false, None, "the object was not moved to another room before the agent acted".into());
+        let is_moved = search::was_moved(self.track, object, waits);
+        if !is_moved || !search::missed(self.track, self.part.judged, object, waits) {
+            let what = if is_moved { "was seen" } else { "was not moved" };
+            return (false, Some(false), format!("the object {what} before the agent acted"));
         }
         let look = search::first_look(self.track, self.part.judged, object, waits);
         let notes = match look {
@@ -236,7 +238,7 @@ impl Case<'_> {
             }
             None => "saw neither".into(),
         };
-        (look.is_some_and(|look| look.at_old_place == wanted), None, notes)
+        (look.is_some_and(|look| look.at_old_place == wanted), Some(true), notes)
     }
 
     fn held_anything(&self, agent: AgentId) -> usize {

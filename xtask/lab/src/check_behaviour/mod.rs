@@ -29,7 +29,6 @@ use phase_runs::{
 use phase_sim::SimulationSettings;
 use report::{SceneResult, Trial};
 use rows::PARTS;
-use sets::SceneSet;
 use std::path::{Path, PathBuf};
 use trial::TrialRunner;
 
@@ -121,11 +120,9 @@ fn scenes(arguments: &CheckBehaviour) -> Result<Vec<(usize, String, Scene)>, Run
     Ok(scenes)
 }
 
-/// The files of a part. False beliefs have scenes designed by hand alone.
+/// The files of a part.
 fn files(part: &rows::BehaviourTest, folders: &[PathBuf]) -> Vec<PathBuf> {
-    let drawn = SceneSet::Drawn.folders();
-    let has = |folder: &&PathBuf| part.row != rows::BELIEFS || !drawn.contains(folder);
-    folders.iter().filter(has).map(|folder| folder.join(format!("{}.json", part.name))).collect()
+    folders.iter().map(|folder| folder.join(format!("{}.json", part.name))).collect()
 }
 
 /// Reason that a scene cannot be simulated here, if there is one.

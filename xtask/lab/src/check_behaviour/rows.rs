@@ -50,7 +50,7 @@ pub(super) enum Criterion {
     /// Every agent reaches its goal, releases its object, and stays still to the end of a long event.
     Rest,
     /// Once the agent acts, it looks where the object of its goal was at the start before it sees the object,
-    /// or sees the object first. By then the object has to be in another room.
+    /// or sees the object first. By then the object has to have been moved to another room unseen.
     WrongPlace(bool),
 }
 
@@ -115,9 +115,6 @@ const HELPING: BehaviourTest = BehaviourTest {
 const HINDERING: BehaviourTest =
     BehaviourTest { row: 6, control: Some(AgentId::ZERO), judged: AgentId::ONE, ..BOTH };
 const SEARCHING: BehaviourTest = BehaviourTest { row: 2, name: "02-search", ..ALONE };
-
-/// The row of false and true beliefs.
-pub(super) const BELIEFS: u8 = 11;
 
 /// Everything that is checked, in order.
 pub(super) const PARTS: [BehaviourTest; 22] = [
@@ -228,14 +225,14 @@ pub(super) const PARTS: [BehaviourTest; 22] = [
         ..BOTH
     },
     BehaviourTest {
-        row: BELIEFS,
+        row: 11,
         name: "11a-false-belief",
         title: "an object moved unseen is sought where it was",
         criterion: Criterion::WrongPlace(true),
         ..BOTH
     },
     BehaviourTest {
-        row: BELIEFS,
+        row: 11,
         name: "11b-true-belief",
         title: "told of the move, it is sought where it is",
         criterion: Criterion::WrongPlace(false),
