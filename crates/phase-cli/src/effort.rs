@@ -29,12 +29,16 @@ pub struct MindOptions {
     /// Published minds draw the random numbers of the original, which repeat in every search
     #[arg(long)]
     pub original_random: bool,
+    /// POMCP simulations a decision, 1 to 1000000 [default: 1000; in SIMPLE 50 of our own minds, and 100 of
+    /// published ones without --original-random]
+    #[arg(long, value_name = "N", value_parser = value_parser!(u32).range(SIMULATIONS.bounds()))]
+    pub simulations: Option<u32>,
 }
 
 impl From<MindOptions> for MindChoice {
     fn from(options: MindOptions) -> Self {
-        let MindOptions { minds, one_way_turns, strongest_coasts, original_random } = options;
-        Self { kind: minds, one_way_turns, strongest_coasts, original_random }
+        let MindOptions { minds, one_way_turns, strongest_coasts, original_random, simulations } = options;
+        Self { kind: minds, one_way_turns, strongest_coasts, original_random, simulations }
     }
 }
 
@@ -63,9 +67,6 @@ pub struct SimulationOptions {
     /// Belief particles of each agent, 1 to 100000 [default: 50]
     #[arg(long, value_name = "K", value_parser = value_parser!(u32).range(PARTICLES.bounds()))]
     pub particles: Option<u32>,
-    /// POMCP simulations a decision, 1 to 1000000 [default: 1000]
-    #[arg(long, value_name = "N", value_parser = value_parser!(u32).range(SIMULATIONS.bounds()))]
-    pub simulations: Option<u32>,
     /// Maximum length of an event, in steps of 0.25 s, 1 to 10000 [default: 100]
     #[arg(long, value_name = "N", value_parser = value_parser!(u32).range(EVENT_STEPS.bounds()))]
     pub max_steps: Option<u32>,
@@ -81,7 +82,6 @@ impl SimulationOptions {
             foresight: self.foresight,
             prior: self.prior,
             particles: self.particles,
-            simulations: self.simulations,
             max_steps: self.max_steps,
         }
     }

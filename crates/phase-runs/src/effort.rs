@@ -3,6 +3,7 @@
 use crate::error::RunError;
 use phase_minds::{Foresight, MindKind, MindParameters, PhaseParameters, Prior, Recorder};
 use phase_sim::{Engine, SimulationSettings};
+use phase_simple::Simple;
 
 /// Choice of the minds that agents have.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
@@ -15,6 +16,8 @@ pub struct MindChoice {
     pub strongest_coasts: bool,
     /// Whether published minds draw the random numbers of the original, which repeat in every search.
     pub original_random: bool,
+    /// POMCP simulations a decision, in the range [`phase_minds::SIMULATIONS`].
+    pub simulations: Option<u32>,
 }
 
 impl MindChoice {
@@ -34,7 +37,20 @@ impl MindChoice {
     /// The name of a method that imagines such minds.
     #[must_use]
     pub fn name(&self, method: &str) -> String {
-        self.kind.map_or_else(|| method.into(), |kind| format!("{method}-{}-minds", kind.name()))
+        let kind = self.kind.map(|kind| format!("-{}-minds", kind.name()));
+        let random = self.original_random.then(|| "-original-random".to_owned());
+        let simulations = self.simulations.map(|simulations| format!("-{simulations}-simulations"));
+        [kind, random, simulations].into_iter().flatten().fold(method.into(), |name, part| name + &part)
+    }
+
+    /// SIMPLE that imagines such minds.
+    #[must_use]
+    pub fn imagined_by(&self, simple: Simple) -> Simple {
+        let simple = simple.with_minds(self.kind, self.recorder(), self.original_random);
+        match self.simulations {
+            Some(simulations) => simple.with_simulations(simulations as usize),
+            None => simple,
+        }
     }
 }
 
@@ -51,8 +67,6 @@ pub struct Effort {
     pub prior: Option<Prior>,
     /// Belief particles of each agent, in the range [`phase_minds::PARTICLES`].
     pub particles: Option<u32>,
-    /// POMCP simulations a decision, in the range [`phase_minds::SIMULATIONS`].
-    pub simulations: Option<u32>,
     /// Maximum length of an event (steps of 0.25 s), in the range [`phase_model::setting::EVENT_STEPS`].
     pub max_steps: Option<u32>,
 }
@@ -93,7 +107,7 @@ impl Effort {
         if let Some(particles) = self.particles {
             minds = minds.with_particles(particles as usize);
         }
-        if let Some(simulations) = self.simulations {
+        if let Some(simulations) = self.minds.simulations {
             minds = minds.with_simulations(simulations as usize);
         }
         if self.minds.original_random && minds.kind() != MindKind::Published {
@@ -116,8 +130,9 @@ impl Effort {
     /// The options of the command line that ask for it, each with a space before it.
     #[must_use]
     pub(crate) fn options(&self) -> String {
+        let simulations = self.minds.simulations;
         let numbers =
-            [("particles", self.particles), ("simulations", self.simulations), ("max-steps", self.max_steps)];
+            [("particles", self.particles), ("simulations", simulations), ("max-steps", self.max_steps)];
         let engine = self.engine.map(|engine| format!(" --engine {}", engine.name()));
         let minds = self.minds.kind.map(|minds| format!(" --minds {}", minds.name()));
         let switches = [

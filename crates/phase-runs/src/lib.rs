@@ -23,7 +23,7 @@
 //!
 //! ```
 //! use phase_runs::{
-//!     effort::Effort,
+//!     effort::{Effort, MindChoice},
 //!     eval::{Answers, Evaluation},
 //!     gen_dataset::Generation,
 //!     listener::Silent,
@@ -34,7 +34,7 @@
 //! let folder = scratch.path().join("dataset");
 //! let effort = Effort {
 //!     max_steps: Some(2),
-//!     simulations: Some(10),
+//!     minds: MindChoice { simulations: Some(10), ..MindChoice::default() },
 //!     particles: Some(5),
 //!     ..Effort::default()
 //! };

@@ -1,8 +1,8 @@
 //! The environment that an event is simulated in, by any engine.
 
 use crate::Engine;
-use phase_forward::{Forward, OriginalWorld, SolverCache};
-use phase_model::{AGENT_COUNT, Action, AgentId, Entity, PhysicsConfig, State, Vec2, arena::SUBSTEPS};
+use phase_forward::{ForwardWorld, OriginalWorld};
+use phase_model::{AGENT_COUNT, Action, PhysicsConfig, State, arena::SUBSTEPS};
 use phase_world::World;
 
 /// The world that an event happens in: the true dynamics, as opposed to the agents' models of it.
@@ -49,7 +49,7 @@ impl core::fmt::Debug for Environment {
 #[derive(Clone)]
 enum Inner {
     World(Box<World>),
-    Forward(Box<StatefulForward>),
+    Forward(Box<ForwardWorld>),
     Original(Box<OriginalWorld>),
 }
 
@@ -60,11 +60,7 @@ impl Environment {
     pub fn new(engine: Engine, physics: &PhysicsConfig, state: &State) -> Self {
         Self(match engine {
             Engine::World => Inner::World(Box::new(World::new(physics, state))),
-            Engine::Forward => {
-                let forward = Forward::new(physics);
-                let cache = forward.fresh_cache(state);
-                Inner::Forward(Box::new(StatefulForward { forward, state: *state, cache }))
-            }
+            Engine::Forward => Inner::Forward(Box::new(ForwardWorld::new(physics, state))),
             Engine::Original => {
                 let mut world = OriginalWorld::new(physics, state);
                 world.settle();
@@ -78,7 +74,7 @@ impl Environment {
     pub fn step(&mut self, actions: [Action; AGENT_COUNT]) -> [State; SUBSTEPS] {
         match &mut self.0 {
             Inner::World(world) => world.step(actions),
-            Inner::Forward(replay) => replay.forward.step_warm(&mut replay.state, &mut replay.cache, actions),
+            Inner::Forward(world) => world.step(actions),
             Inner::Original(world) => world.step(actions),
         }
     }
@@ -91,12 +87,9 @@ impl Environment {
                 world.stop_agents();
                 world.state()
             }
-            Inner::Forward(replay) => {
-                for agent in AgentId::ALL {
-                    let body = replay.state.body_mut(Entity::Agent(agent));
-                    (body.velocity, body.angular_velocity) = (Vec2::ZERO, 0.0);
-                }
-                replay.state
+            Inner::Forward(world) => {
+                world.stop_agents();
+                *world.state()
             }
             Inner::Original(world) => {
                 world.stop_agents();
@@ -104,12 +97,4 @@ impl Environment {
             }
         }
     }
-}
-
-/// The kernel with its cache, which is its closest approximation of the published simulator.
-#[derive(Clone)]
-struct StatefulForward {
-    forward: Forward,
-    state: State,
-    cache: SolverCache,
 }

@@ -162,7 +162,7 @@ impl PreparedEvent {
             {
                 self.resynchronise(&mut run, step - 1);
             }
-            let outlooks = AgentId::ALL.map(|agent| self.beliefs[agent].outlook(step - 1, &run.state));
+            let outlooks = AgentId::ALL.map(|agent| self.beliefs[agent].outlook(step - 1, run.state()));
             let (means, _) = run.step(&outlooks)?;
             let deviation = self.deviation(&means, row);
             deviations.push(deviation);
@@ -211,7 +211,7 @@ impl PreparedEvent {
                 self.resynchronise(&mut run, step);
             }
             self.lead(&mut run, agent, step)?;
-            let outlook = self.beliefs[agent].outlook(step, &run.state);
+            let outlook = self.beliefs[agent].outlook(step, run.state());
             let (action, thought) = run.decide(agent, &outlook)?;
             let mut actions = *action_likelihoods;
             actions[agent] = action;
@@ -293,7 +293,7 @@ impl PreparedEvent {
         let seed = random::derive_seed(self.seed, Purpose::Search, step as u64);
         run.random = AgentId::ALL.map(|agent| random::stream(seed, Purpose::Search, agent.number().into()));
         self.lead(run, agent, step)?;
-        let outlook = beliefs.outlook(step, &run.state);
+        let outlook = beliefs.outlook(step, run.state());
         run.decide(agent, &outlook)
     }
 
@@ -305,7 +305,7 @@ impl PreparedEvent {
     /// Lets the first agent decide where the second one's random numbers follow from its own.
     fn lead(&self, run: &mut SimulationRun, agent: AgentId, step: usize) -> Result<(), PomcpError> {
         if run.shares_random && agent == AgentId::ONE {
-            let outlook = self.beliefs[AgentId::ZERO].outlook(step, &run.state);
+            let outlook = self.beliefs[AgentId::ZERO].outlook(step, run.state());
             run.decide(AgentId::ZERO, &outlook)?;
         }
         Ok(())
@@ -338,7 +338,7 @@ impl PreparedEvent {
         let mut forecast: phase_model::Forecast = self.observed.entities().map(|_| Vec::new()).collect();
         for _ in 0..steps {
             let outlooks = AgentId::ALL.map(|agent| {
-                let observation = beliefs[agent].observe(&run.state);
+                let observation = beliefs[agent].observe(run.state());
                 Outlook {
                     particles: beliefs[agent].particles().to_vec(),
                     observed: observation.observed,
@@ -351,7 +351,7 @@ impl PreparedEvent {
                 positions.push(mean);
             }
             for (agent, belief) in AgentId::ALL.into_iter().zip(&mut beliefs) {
-                let observation = belief.observe(&run.state);
+                let observation = belief.observe(run.state());
                 belief.update(actions[agent], &observation, &run.substeps, &mut random[agent]);
             }
         }

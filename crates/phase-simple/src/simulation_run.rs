@@ -2,10 +2,11 @@
 
 use crate::{Hypothesis, ImaginedAgents};
 use phase_event::{ObservedEvent, Thought};
-use phase_forward::{Forward, SolverCache};
+use phase_forward::{ForwardWorld, OriginalWorld};
 use phase_minds::{BeliefView, Contest, Mind, Recorder, SearchMemo, Supposition, mind, mind_sharing};
 use phase_model::{
-    AGENT_COUNT, Action, AgentBody, AgentId, BodySet, Layout, MAX_ENTITIES, Scene, State, Vec2,
+    AGENT_COUNT, Action, AgentBody, AgentId, BodySet, Layout, MAX_ENTITIES, PhysicsConfig, Scene, State,
+    Vec2,
     arena::SUBSTEPS,
     random::{self, Pcg64Mcg, Purpose},
 };
@@ -19,17 +20,55 @@ pub(crate) struct SimulationRun {
     bodies: [AgentBody; AGENT_COUNT],
     /// Whether both minds draw from one stream of random numbers, as in the original.
     pub(crate) shares_random: bool,
-    forward: Forward,
+    world: ImaginedWorld,
     minds: [Box<dyn Mind>; AGENT_COUNT],
     pub(crate) random: [Pcg64Mcg; AGENT_COUNT],
-    pub(crate) state: State,
-    cache: SolverCache,
     /// The states after the substeps of the last step.
     pub(crate) substeps: [State; SUBSTEPS],
     last_actions: [Option<Action>; AGENT_COUNT],
     /// The position at which the first agent's decision has left the original's random numbers, until the
     /// second decides.
     led_to: Option<u64>,
+}
+
+/// The world that an inference imagines. The original's random numbers repeat what was recorded only in the
+/// original's world.
+#[derive(Debug)]
+enum ImaginedWorld {
+    Forward(Box<ForwardWorld>),
+    Original(Box<PhysicsConfig>, Box<OriginalWorld>),
+}
+
+impl ImaginedWorld {
+    fn new(is_original: bool, physics: PhysicsConfig, state: &State) -> Self {
+        if is_original {
+            let world = OriginalWorld::new(&physics, state);
+            Self::Original(Box::new(physics), Box::new(world))
+        } else {
+            Self::Forward(Box::new(ForwardWorld::new(&physics, state)))
+        }
+    }
+
+    const fn state(&self) -> &State {
+        match self {
+            Self::Forward(world) => world.state(),
+            Self::Original(_, world) => world.state(),
+        }
+    }
+
+    fn set_state(&mut self, state: &State) {
+        match self {
+            Self::Forward(world) => world.set_state(state),
+            Self::Original(physics, world) => **world = OriginalWorld::new(physics, state),
+        }
+    }
+
+    fn step(&mut self, actions: [Action; AGENT_COUNT]) -> [State; SUBSTEPS] {
+        match self {
+            Self::Forward(world) => world.step(actions),
+            Self::Original(_, world) => world.step(actions),
+        }
+    }
 }
 
 /// The states that each agent believes possible, and the entities that it observes.
@@ -65,18 +104,17 @@ impl SimulationRun {
         memo: Option<&SearchMemo>,
     ) -> Result<Self, PomcpError> {
         let physics = scene.physics();
-        let forward = Forward::new(&physics);
+        let shares_random = agents.minds.has_original_random();
+        let world = ImaginedWorld::new(shares_random, physics.clone(), &state);
         let mind = |agent| match memo {
             Some(memo) => mind_sharing(scene, agent, &agents.minds, memo),
             None => mind(scene, agent, &agents.minds),
         };
         let minds = [mind(AgentId::ZERO)?, mind(AgentId::ONE)?];
         let random = AgentId::ALL.map(|agent| random::stream(seed, Purpose::Search, agent.number().into()));
-        let cache = forward.fresh_cache(&state);
         let layout = scene.layout;
         let last_actions = [None; AGENT_COUNT];
         let recorder = agents.recorder();
-        let shares_random = agents.minds.has_original_random();
         let substeps = [state; SUBSTEPS];
         let bodies = physics.agents;
         Ok(Self {
@@ -84,11 +122,9 @@ impl SimulationRun {
             recorder,
             bodies,
             shares_random,
-            forward,
+            world,
             minds,
             random,
-            state,
-            cache,
             substeps,
             last_actions,
             led_to: None,
@@ -97,9 +133,13 @@ impl SimulationRun {
 
     /// Sets the world to a state that both agents' actions have led to, if they have acted.
     pub(crate) fn set_state(&mut self, state: State, last_actions: Option<&[Action; AGENT_COUNT]>) {
-        self.state = state;
         self.last_actions = last_actions.map_or([None; AGENT_COUNT], |actions| actions.map(Some));
-        self.cache = self.forward.fresh_cache(&state);
+        self.world.set_state(&state);
+    }
+
+    /// The state of the world.
+    pub(crate) const fn state(&self) -> &State {
+        self.world.state()
     }
 
     /// Tells an agent's mind for how many steps it has watched, less those in which it has acted since.
@@ -146,7 +186,7 @@ impl SimulationRun {
     /// Both act: the mean positions of all bodies over the step.
     pub(crate) fn act(&mut self, actions: [Action; AGENT_COUNT]) -> [Vec2; MAX_ENTITIES] {
         self.last_actions = actions.map(Some);
-        self.substeps = self.forward.step_warm(&mut self.state, &mut self.cache, actions);
+        self.substeps = self.world.step(actions);
         let substeps = &self.substeps;
         let mean = |entity: usize| {
             let sum = substeps.iter().fold(Vec2::ZERO, |sum, substep| sum + substep.bodies[entity].position);

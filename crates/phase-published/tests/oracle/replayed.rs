@@ -7,6 +7,11 @@ use phase_model::{
     random::{Pcg64Mcg, Purpose, stream},
 };
 use phase_published::{Belief, Mind, PublishedParameters, RandomNumbers, senses::observe};
+use std::{
+    num::NonZero,
+    sync::atomic::{AtomicUsize, Ordering},
+    thread,
+};
 
 /// Both sources of random numbers.
 const RANDOM: [RandomNumbers; 2] = [RandomNumbers::Original, RandomNumbers::Seeded];
@@ -137,22 +142,33 @@ fn decisions_are_those_recorded() {
     assert!(sum.share() > 0.9);
 }
 
-/// Minutes of CPU time: `cargo test -p phase-published --test oracle all_decisions -- --ignored --nocapture`.
+/// Half an hour of CPU time on all cores: `cargo test -p phase-published --test oracle all_decisions -- --ignored --nocapture`.
 #[test]
 #[ignore = "takes minutes"]
 fn all_decisions_are_those_recorded() {
     let Some(recordings) = recordings() else { return };
+    let next = AtomicUsize::new(0);
+    let work = || {
+        let mut counted = Vec::new();
+        while let Some(recording) = recordings.get(next.fetch_add(1, Ordering::Relaxed)) {
+            let counts = RANDOM.map(|random| decisions(recording, random));
+            let [original, seeded] = counts.map(|[all, certain]| format!("{all}, certain: {certain}"));
+            println!("{} {}; original: {original}; seeded: {seeded}", recording.id, recording.kind.name());
+            counted.push((usize::from(recording.kind == EventKind::Hindering), counts));
+        }
+        counted
+    };
+    let threads = thread::available_parallelism().map_or(1, NonZero::get);
+    let counted: Vec<_> = thread::scope(|scope| {
+        let workers: Vec<_> = (0..threads).map(|_| scope.spawn(work)).collect();
+        workers.into_iter().flat_map(|worker| worker.join().expect("a count")).collect()
+    });
     // By source of random numbers, and by whether there were the older actions.
     let mut sums = [[[Same::default(); 2]; 2]; 2];
-    for recording in &recordings {
-        let older = usize::from(recording.kind == EventKind::Hindering);
-        print!("{} {}", recording.id, recording.kind.name());
-        for (random, sums) in RANDOM.into_iter().zip(&mut sums) {
-            let counts = decisions(recording, random);
-            print!("; {random:?}: {}, certain: {}", counts[0], counts[1]);
+    for (older, counts) in counted {
+        for (sums, counts) in sums.iter_mut().zip(counts) {
             sums[older] = [0, 1].map(|k| sums[older][k].plus(counts[k]));
         }
-        println!();
     }
     for (random, sums) in RANDOM.into_iter().zip(&sums) {
         for (name, [all, certain]) in ["from the 28th of August on", "hindering"].into_iter().zip(sums) {

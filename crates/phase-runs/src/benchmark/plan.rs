@@ -143,7 +143,7 @@ pub(super) fn minds_of(run: &BenchmarkRun, method: &str, recorded: bool) -> Mind
         kind: run.minds,
         one_way_turns: as_recorded,
         strongest_coasts: as_recorded,
-        original_random: false,
+        ..MindChoice::default()
     }
 }
 

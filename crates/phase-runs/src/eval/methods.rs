@@ -96,11 +96,13 @@ pub fn belief_reader(
 /// SIMPLE with these minds; `None` for other methods, for which none can be chosen.
 fn simple(name: &str, minds: &MindChoice) -> Result<Option<Simple>, RunError> {
     if !Simple::NAMES.contains(&name) {
-        let rule = || RunError::Usage(format!("--minds, --one-way-turns: method {name:?} has no minds"));
+        let rule = || {
+            RunError::Usage(format!("--minds, --one-way-turns, --simulations: method {name:?} has no minds"))
+        };
         return if minds.is_default() { Ok(None) } else { Err(rule()) };
     }
     let simple = Simple::named(name, &Arc::new(Models::bundled()?));
-    Ok(simple.map(|simple| simple.with_minds(minds.kind, minds.recorder(), minds.original_random)))
+    Ok(simple.map(|simple| minds.imagined_by(simple)))
 }
 
 /// The intent network alone, with the weights of a file or the bundled ones.

@@ -59,11 +59,10 @@ impl Generation {
     fn set(&mut self, option: &str, value: &str) -> Option<()> {
         let Effort {
             engine,
-            minds: MindChoice { kind, .. },
+            minds: MindChoice { kind, simulations, .. },
             foresight,
             prior,
             particles,
-            simulations,
             max_steps,
         } = &mut self.effort;
         match option {

@@ -180,8 +180,7 @@ impl Observation {
         if self.method == ObservingMethod::IntentNetwork && self.minds != MindChoice::default() {
             return Err(RunError::Usage("--minds: method \"intent-network\" imagines no minds".into()));
         }
-        let minds = &self.minds;
-        Ok(Simple::bundled()?.with_minds(minds.kind, minds.recorder(), minds.original_random))
+        Ok(self.minds.imagined_by(Simple::bundled()?))
     }
 
     fn course(

@@ -122,6 +122,18 @@ impl Simple {
         self
     }
 
+    /// SIMPLE whose imagined minds make so many simulations a decision, in the range
+    /// [`phase_minds::SIMULATIONS`].
+    #[must_use]
+    pub const fn with_simulations(mut self, simulations: usize) -> Self {
+        let agents = &mut self.settings.agents;
+        agents.minds = agents.minds.with_simulations(simulations);
+        if let Some(AlternativeAgents { agents, .. }) = &mut self.settings.alternative {
+            agents.minds = agents.minds.with_simulations(simulations);
+        }
+        self
+    }
+
     /// Begins to watch an event row by row; `observed` has the rows seen so far, at least one.
     ///
     /// # Errors

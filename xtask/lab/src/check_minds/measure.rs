@@ -6,13 +6,17 @@ use cpu_time::ThreadTime;
 use phase_cli::progress::Progress;
 use phase_event::{MethodError, ProgressCallback, Recording};
 use phase_evidence::Track;
-use phase_model::{AGENT_COUNT, AgentId, EventKind};
+use phase_model::{AGENT_COUNT, AgentId, EventKind, State};
 use phase_runs::{engine, error::RunError, interrupt::requested};
 use phase_sim::{Engine, SimulationSettings};
 use phase_simple::{
     ImaginedAgents, InversePlanningSettings, PreparedEvent,
     choice::{self, Chance},
 };
+
+/// Distance of a body from where it was recorded beyond which a simulation has parted from the recording (u):
+/// less than the smallest body's diameter, and more than a step's motion.
+const PARTED: f32 = 1.0;
 
 /// Steps after which a simulation whose straying is measured is set to the observed state.
 const RESYNC_INTERVAL: usize = 10;
@@ -57,6 +61,10 @@ pub(super) struct MeasuredEvent {
 pub(super) struct Simulated {
     /// Motion of the agents.
     pub(super) motion: Motion,
+    /// Steps before the first in which it has parted from the recording.
+    pub(super) together: usize,
+    /// Distance of a body from where it was recorded, mean over bodies and steps (u).
+    pub(super) distance: f64,
     /// CPU time of 100 steps (s).
     pub(super) cpu_seconds: f64,
 }
@@ -141,9 +149,29 @@ impl Measurement {
         let begun = ThreadTime::now();
         let event = engine::simulate(&recording.id, &recording.scene, seed, &settings, &mut |_| tick())?;
         let cpu_seconds = begun.elapsed().as_secs_f64() * 100.0 / steps as f64;
-        Ok(event.map(|event| Simulated {
-            motion: Motion::of(&recording.scene, &Track::of_event(&event)),
-            cpu_seconds,
+        Ok(event.map(|event| {
+            let track = Track::of_event(&event);
+            let distances = distances(recording, &track);
+            let farthest = |row: &Vec<f32>| row.iter().copied().fold(0.0, f32::max);
+            let together = distances.iter().position(|row| farthest(row) > PARTED);
+            let all: Vec<f64> = distances.iter().flatten().copied().map(f64::from).collect();
+            Simulated {
+                motion: Motion::of(&recording.scene, &track),
+                together: together.unwrap_or(distances.len()),
+                distance: phase_statistics::mean(&all).unwrap_or(0.0),
+                cpu_seconds,
+            }
         }))
     }
+}
+
+/// Distance of each body from where it was recorded, after each step (u).
+fn distances(recording: &Recording, track: &Track) -> Vec<Vec<f32>> {
+    let recorded = recording.trajectory.states();
+    let bodies = AGENT_COUNT + recording.scene.objects.len();
+    let of = |(ours, theirs): (&State, State)| {
+        let both = ours.bodies.iter().zip(&theirs.bodies).take(bodies);
+        both.map(|(own, other)| own.position.distance(other.position)).collect()
+    };
+    track.states.iter().zip(recorded).skip(1).map(of).collect()
 }

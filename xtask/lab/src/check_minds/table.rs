@@ -22,7 +22,7 @@ const MINDS: [Column; 9] = [
 ];
 
 /// The open loop beside the recordings.
-const OPEN_LOOP: [Column; 9] = [
+const OPEN_LOOP: [Column; 11] = [
     ("goals", |it| it.open_loop.goals.to_string()),
     ("as recorded", |it| number(it.open_loop.outcomes_as_recorded, 2)),
     ("any time", |it| number(it.open_loop.outcomes_at_any_time, 2)),
@@ -31,6 +31,8 @@ const OPEN_LOOP: [Column; 9] = [
     ("speed", |it| beside(it.open_loop.speed, it.open_loop.speed_recorded, 1)),
     ("still", |it| beside(it.open_loop.still_share, it.open_loop.still_share_recorded, 2)),
     ("contact", |it| beside(it.open_loop.contact_share, it.open_loop.contact_share_recorded, 2)),
+    ("together", |it| number(it.open_loop.steps_together, 0)),
+    ("distance", |it| number(it.open_loop.distance, 2)),
     ("longest still", |it| {
         let own = &it.open_loop;
         beside(own.longest_still_with_open_goal, own.longest_still_with_open_goal_recorded, 1)
@@ -53,6 +55,7 @@ pub(super) fn print(report: &MindsReport) -> String {
          stray: u a step, where one agent decides / both do\n\n\
          the same scenes simulated / recorded\n\n{}\n\
          path, speed: medians (u, u/s); still: share of steps in which nobody moves; contact: share of steps;\n\
+         together: median number of steps before a body is 1 u from where it was recorded; distance: mean (u);\n\
          longest still: nobody moves while a positive goal is open (s of video); cpu: seconds for 100 steps\n",
         report.lapse,
         table(report, &MINDS),

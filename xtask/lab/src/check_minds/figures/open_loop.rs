@@ -40,6 +40,10 @@ pub(in crate::check_minds) struct OpenLoopFigures {
     pub(in crate::check_minds) longest_still_with_open_goal_recorded: Option<f64>,
     /// The mean, recorded.
     pub(in crate::check_minds) longest_still_with_open_goal_mean_recorded: Option<f64>,
+    /// Steps before the first in which a body is more than 1 u from where it was recorded (median).
+    pub(in crate::check_minds) steps_together: Option<f64>,
+    /// Distance of a body from where it was recorded, mean over bodies, steps and events (u).
+    pub(in crate::check_minds) distance: Option<f64>,
     /// CPU time of 100 steps (mean, s).
     pub(in crate::check_minds) cpu_seconds_per_100_steps: Option<f64>,
     /// The maximum over events.
@@ -77,6 +81,8 @@ impl OpenLoopFigures {
             longest_still_with_open_goal_mean: mean(&still_seconds(simulated())),
             longest_still_with_open_goal_recorded: max(&still_seconds(recorded())),
             longest_still_with_open_goal_mean_recorded: mean(&still_seconds(recorded())),
+            steps_together: median(runs().map(|(_, run)| run.together as f32)),
+            distance: mean(&runs().map(|(_, run)| run.distance).collect::<Vec<_>>()),
             cpu_seconds_per_100_steps: mean(&cpu_seconds),
             cpu_seconds_per_100_steps_max: max(&cpu_seconds),
         }
