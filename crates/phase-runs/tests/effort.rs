@@ -23,8 +23,8 @@ fn every_request_changes_its_setting_alone() {
     assert_eq!(quick, SimulationSettings { engine: Engine::Forward, ..defaults });
     for kind in MindKind::ALL {
         let plain = MindParameters::of(kind);
-        let effort =
-            Effort { minds: minds(kind), particles: Some(3), simulations: Some(11), ..Effort::default() };
+        let searching = MindChoice { simulations: Some(11), ..minds(kind) };
+        let effort = Effort { minds: searching, particles: Some(3), ..Effort::default() };
         let expected = plain.with_particles(3).with_simulations(11);
         assert_eq!(of(effort), SimulationSettings { minds: expected, ..defaults });
         let points =
@@ -61,7 +61,7 @@ fn settings_that_differ_read_differently() {
         base,
         Effort { engine: Some(Engine::Forward), ..base },
         Effort { particles: Some(3), ..base },
-        Effort { simulations: Some(3), ..base },
+        Effort { minds: MindChoice { simulations: Some(3), ..MindChoice::default() }, ..base },
         Effort { max_steps: Some(3), ..base },
         Effort { foresight: Some(Foresight::Exact), ..base },
         Effort { prior: Some(Prior::Network), ..base },

@@ -4,7 +4,7 @@ use core::ops::ControlFlow;
 use phase_event::{Recording, to_json};
 use phase_model::AgentId;
 use phase_runs::{
-    effort::Effort,
+    effort::{Effort, MindChoice},
     engine,
     event_writer::settings_value,
     gen_dataset::{any_scene, plan},
@@ -16,7 +16,8 @@ use std::{fs, path::Path};
 
 /// A file with two short events, one of which is only measured.
 fn events(folder: &Path) -> Rendering {
-    let effort = Effort { max_steps: Some(2), simulations: Some(5), particles: Some(3), ..Effort::default() };
+    let minds = MindChoice { simulations: Some(5), ..MindChoice::default() };
+    let effort = Effort { max_steps: Some(2), minds, particles: Some(3), ..Effort::default() };
     let settings = effort.settings().expect("settings");
     let scene = any_scene(&plan::preset("demo").expect("a preset"), 1).expect("a scene");
     let event = engine::simulate("a", &scene, 1, &settings, &mut |_| ControlFlow::Continue(()));

@@ -142,7 +142,8 @@ fn decisions_are_those_recorded() {
     assert!(sum.share() > 0.9);
 }
 
-/// Half an hour of CPU time on all cores: `cargo test -p phase-published --test oracle all_decisions -- --ignored --nocapture`.
+/// Takes 20 minutes of CPU time on all cores:
+/// `cargo test -p phase-published --test oracle all_decisions -- --ignored --nocapture`.
 #[test]
 #[ignore = "takes minutes"]
 fn all_decisions_are_those_recorded() {
