@@ -9,7 +9,7 @@
 //! event can be followed while it is watched, and the answer is the same as if it had been seen at once.
 
 use crate::{
-    Hypothesis, Intent, IntentEvidence, InversePlanningSettings, Posterior,
+    Hypothesis, Intent, IntentEvidence, InversePlanningSettings, KnowledgeSettings, Posterior,
     evidence::{ActionLikelihoods, Budget, Stride},
     generative::PreparedEvent,
     guide::Guess,
@@ -211,7 +211,11 @@ impl InversePlanner {
     /// agent does not know the other's goal; the rest is that it knows.
     pub(crate) fn levels(&self, agent: AgentId, intent: Intent) -> [f64; Level::ALL.len()] {
         let asked = self.asked[agent].iter().find(|asked| asked.key.1 == intent);
-        let explained = asked.map(|asked| self.explain(agent, asked, self.decisions(), &self.settings));
+        // What decisions tell of knowledge is not tempered, as what they tell of objects is not.
+        let inverse_temperature =
+            KnowledgeSettings::default().inverse_temperature / self.settings.interval.max(1) as f64;
+        let settings = InversePlanningSettings { inverse_temperature, ..self.settings };
+        let explained = asked.map(|asked| self.explain(agent, asked, self.decisions(), &settings));
         explained.map_or([0.0; Level::ALL.len()], |explained| explained.levels)
     }
 
