@@ -3,6 +3,7 @@
 mod check_behaviour;
 mod check_minds;
 mod check_physics;
+mod fit_beliefs;
 mod fit_inference;
 mod fit_minds;
 mod fit_reports;
