@@ -1,8 +1,9 @@
 //! The features of an event that are known without looking at its motion.
 
+use crate::report::TARGETS;
 use phase_dataset::labels::goal_label;
 use phase_event::Recording;
-use phase_model::{AgentId, Entity, MAX_ENTITIES, MAX_OBJECTS, Scene, SlotId, State};
+use phase_model::{AgentId, Awareness, Entity, MAX_ENTITIES, MAX_OBJECTS, Scene, SlotId, State};
 
 /// A group of features.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
@@ -61,8 +62,8 @@ impl Feature {
 /// One event as the audit sees it.
 #[derive(Clone, PartialEq, Debug)]
 pub struct AuditItem {
-    /// Relation, kind, and the goals of agents 0 and 1 as classes.
-    pub(crate) classes: [String; 4],
+    /// Classes in the order of [`Target::ALL`](crate::Target::ALL).
+    pub(crate) classes: [String; TARGETS],
     /// Numbers by group, in the order of [`Feature::ALL`].
     pub(crate) features: [Vec<f64>; 9],
     /// Events with the same key share their bodies.
@@ -82,6 +83,7 @@ impl AuditItem {
             scene.kind.name().to_owned(),
             goal(AgentId::ZERO),
             goal(AgentId::ONE),
+            scene.agents.each_ref().map(|agent| knowledge(agent.awareness)).join("; "),
         ];
         let start = scene.initial_state();
         let last = states.last().copied().unwrap_or(start);
@@ -179,4 +181,9 @@ fn distance(state: &State, one: Entity, other: Entity) -> f64 {
 
 fn moved(before: &State, after: &State, entity: Entity) -> f64 {
     before.position(entity).distance(after.position(entity)).into()
+}
+
+/// What an agent knows without finding it out, as a class.
+fn knowledge(Awareness { knows, sees, .. }: Awareness) -> String {
+    format!("{knows:?}, {sees:?}")
 }

@@ -25,11 +25,17 @@ pub enum Target {
     GoalOfAgent0,
     /// The goal of agent 1.
     GoalOfAgent1,
+    /// What each agent knows of the other's mind and of objects without finding it out.
+    Knowledge,
 }
+
+/// Number of targets.
+pub(crate) const TARGETS: usize = Target::ALL.len();
 
 impl Target {
     /// All targets, in the order of tables.
-    pub const ALL: [Self; 4] = [Self::Relation, Self::Kind, Self::GoalOfAgent0, Self::GoalOfAgent1];
+    pub const ALL: [Self; 5] =
+        [Self::Relation, Self::Kind, Self::GoalOfAgent0, Self::GoalOfAgent1, Self::Knowledge];
 
     /// The name of the target in tables.
     #[must_use]
@@ -39,6 +45,7 @@ impl Target {
             Self::Kind => "kind",
             Self::GoalOfAgent0 => "goal of agent 0",
             Self::GoalOfAgent1 => "goal of agent 1",
+            Self::Knowledge => "knowledge",
         }
     }
 }
@@ -49,7 +56,7 @@ pub struct AuditRow {
     /// The features.
     pub feature: Feature,
     /// The cross-validated share of events named right, by [`Target::ALL`]; 0 to 1.
-    pub accuracies: [f64; 4],
+    pub accuracies: [f64; TARGETS],
 }
 
 /// The result of an audit.
@@ -60,12 +67,17 @@ pub struct Audit {
     /// Number of events in the dataset.
     pub of: usize,
     /// The share of the most frequent class, by [`Target::ALL`].
-    pub majorities: [f64; 4],
+    pub majorities: [f64; TARGETS],
     /// One row for each of [`Feature::ALL`].
     pub rows: Vec<AuditRow>,
 }
 
 impl Audit {
+    /// The targets of which there is more than one class, so that there is something to tell.
+    pub fn targets(&self) -> impl Iterator<Item = Target> + '_ {
+        Target::ALL.into_iter().filter(|&target| self.majorities[target as usize] < 1.0)
+    }
+
     /// Accuracy of all motion-free features together, less the share of the most frequent class; may be
     /// negative.
     #[must_use]
@@ -161,15 +173,21 @@ fn most_frequent(classes: &[u32]) -> u32 {
     counts.into_iter().max_by_key(|&(_, count)| count).map_or(0, |(class, _)| class)
 }
 
-/// The audit as a table in Markdown, with the majority's shares in the first row.
+/// The audit as a table in Markdown, with the majority's shares in the first row; targets of a single class
+/// are left out.
 #[must_use]
 pub fn table(audit: &Audit) -> String {
-    let shares = |shares: &[f64; 4]| shares.map(|share| format!("{share:.3}")).join(" | ");
-    let names = Target::ALL.map(Target::name).join(" | ");
-    let mut text = format!("| told from | {names} |\n|---|---|---|---|---|\n");
-    text += &format!("| nothing (the most frequent class) | {} |\n", shares(&audit.majorities));
+    let line = |name: &str, cell: &dyn Fn(Target) -> String| {
+        audit.targets().fold(format!("| {name} |"), |line, target| format!("{line} {} |", cell(target)))
+            + "\n"
+    };
+    let shares =
+        |name: &str, shares: &[f64; TARGETS]| line(name, &|target| format!("{:.3}", shares[target as usize]));
+    let mut text = line("told from", &|target| target.name().to_owned());
+    text += &format!("|---|{}\n", "---|".repeat(audit.targets().count()));
+    text += &shares("nothing (the most frequent class)", &audit.majorities);
     for row in &audit.rows {
-        text += &format!("| {} | {} |\n", row.feature.name(), shares(&row.accuracies));
+        text += &shares(row.feature.name(), &row.accuracies);
     }
     text
 }
@@ -177,12 +195,15 @@ pub fn table(audit: &Audit) -> String {
 /// The finding of the table, in a sentence.
 #[must_use]
 pub fn summary(audit: &Audit) -> String {
+    const TOLD: [Target; 3] = [Target::Relation, Target::Kind, Target::Knowledge];
     let one = |target: Target| {
         let majority = audit.majorities[target as usize];
         let all = majority + audit.excess(target);
         format!("the {} of {all:.3} of the events (most frequent class {majority:.3})", target.name())
     };
-    let relation = one(Target::Relation);
-    let kind = one(Target::Kind);
-    format!("a random forest that sees no motion tells {relation}, and {kind}")
+    let told: Vec<String> = audit.targets().filter(|target| TOLD.contains(target)).map(one).collect();
+    if told.is_empty() {
+        return "all events have one relation and one kind, so that there is nothing to tell".into();
+    }
+    format!("a random forest that sees no motion tells {}", told.join(", and "))
 }

@@ -68,6 +68,21 @@ pub enum Sight {
     Objects,
 }
 
+impl Sight {
+    /// All of them.
+    pub const ALL: [Self; 3] = [Self::Own, Self::Start, Self::Objects];
+
+    /// The name used in files.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Own => "own",
+            Self::Start => "start",
+            Self::Objects => "objects",
+        }
+    }
+}
+
 /// Knowledge that an agent has without finding it out, and when it begins to act. The default is the paper's.
 ///
 /// In files these are members of an agent: `knows` (`goals`, or `nothing` with a `level`), and `sees`

@@ -57,8 +57,8 @@ pub fn section(audit: Option<&Audit>, events: usize) -> String {
 /// Whether the motion-free features reveal more than a benchmark can afford, in a sentence of `verify`.
 #[must_use]
 pub fn verdict(audit: &Audit) -> String {
-    let excess =
-        [Target::Relation, Target::Kind].map(|target| audit.excess(target)).into_iter().fold(0.0, f64::max);
+    let labels = [Target::Relation, Target::Kind, Target::Knowledge];
+    let excess = labels.map(|target| audit.excess(target)).into_iter().fold(0.0, f64::max);
     let warning = if excess > MAX_EXCESS {
         format!(
             "; that is more than {MAX_EXCESS} above the most frequent class: length, bodies or layout reveal the labels"
@@ -72,12 +72,9 @@ pub fn verdict(audit: &Audit) -> String {
 /// The audit for programs: accuracies by features and target.
 #[must_use]
 pub fn value(audit: &Audit) -> Value {
-    let named = |shares: &[f64; 4]| {
-        Target::ALL
-            .into_iter()
-            .zip(shares)
-            .map(|(target, &share)| (target.name(), share))
-            .collect::<BTreeMap<_, _>>()
+    let named = |shares: &[f64]| {
+        let told = audit.targets().map(|target| (target.name(), shares[target as usize]));
+        told.collect::<BTreeMap<_, _>>()
     };
     let rows: BTreeMap<&str, _> =
         audit.rows.iter().map(|row| (row.feature.name(), named(&row.accuracies))).collect();

@@ -4,7 +4,7 @@ use super::{
     column::{Column, Description, TypedColumn},
     row::{goal_kind, goal_other, number},
 };
-use phase_model::{LandmarkId, arena};
+use phase_model::{Knowledge, LandmarkId, arena};
 
 /// Documentation of every column, in the files' order.
 #[must_use]
@@ -132,7 +132,7 @@ fn labels() -> Vec<Box<dyn Column>> {
             "",
             "string",
             "",
-            "in a set, what that agent wants with regard to the other: `help`, `hinder`, `indifferent`, `same` or `rival`",
+            "in a set, what that agent wants with regard to the other (`help`, `hinder`, `indifferent`, `same` or `rival`), or whether it knows what the other does (`unaware` or `told`)",
             |row| row.entry.set.as_ref().map_or_else(String::new, |place| place.stance.name().to_owned())
         ),
         (
@@ -150,6 +150,36 @@ fn labels() -> Vec<Box<dyn Column>> {
             .to_owned()),
         ("alpha", "[2]", "int32", "", "social utility weight: 1 helps, -1 hinders, 0 neither", |row| row
             .of_agents(|agent| i32::from(agent.attitude.alpha()))),
+        (
+            "knows",
+            "[2]",
+            "string",
+            "",
+            "`goals`: it knows the other's goal and strength; `nothing`: it has to infer them",
+            |row| row.of_agents(|agent| knows(agent.awareness.knows).to_owned())
+        ),
+        (
+            "level",
+            "[2]",
+            "int32",
+            "",
+            "how far an agent that knows nothing reasons about the other's mind, 0 to 2; null for one that knows",
+            |row| row.of_agents(|agent| agent
+                .awareness
+                .knows
+                .level()
+                .map(|level| i32::from(u8::from(level))))
+        ),
+        (
+            "sees",
+            "[2]",
+            "string",
+            "",
+            "of which objects it knows the place: `own`, those it sees; `start`, also where all were at the start; `objects`, all",
+            |row| row.of_agents(|agent| agent.awareness.sees.name().to_owned())
+        ),
+        ("waits", "[2]", "int32", "steps", "steps for which it watches before it acts", |row| row
+            .of_agents(|agent| i32::from(agent.awareness.waits))),
         ("goal", "[2]", "string", "", "the goal in words, colours as in the video", |row| row.goal_words()),
         ("goal_kind", "[2]", "string", "", "`agent_on_landmark`, `object_on_landmark` or `touch`", |row| row
             .of_agents(|agent| goal_kind(agent.goal).to_owned())),
@@ -251,4 +281,11 @@ fn minds() -> Vec<Box<dyn Column>> {
             |row| row.of_steps(|step, agent| step.thoughts[agent].share())
         ),
     ]
+}
+
+const fn knows(knowledge: Knowledge) -> &'static str {
+    match knowledge {
+        Knowledge::Goals => "goals",
+        Knowledge::Nothing(_) => "nothing",
+    }
 }

@@ -120,7 +120,7 @@ fn awareness(field: &Field<'_>) -> Result<Awareness, FieldError> {
             return Err(level.error("is for agents that know \"nothing\" of the other's goal"));
         }
     };
-    let sights = [("own", Sight::Own), ("start", Sight::Start), ("objects", Sight::Objects)];
+    let sights = Sight::ALL.map(|sees| (sees.name(), sees));
     let sees = field.optional("sees")?.map_or(Ok(Sight::Own), |sees| sees.one_of(&sights))?;
     let waits = field.optional("waits")?.map_or(Ok(0), |waits| waits.whole(0, MOST_WAITING.into()))?;
     Ok(Awareness { knows, sees, waits: waits as u16 })

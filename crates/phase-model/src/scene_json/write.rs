@@ -66,11 +66,7 @@ impl AgentMembers {
             alpha: agent.attitude.alpha(),
             knows: level.map(|_| "nothing"),
             level: level.map(u8::from),
-            sees: match agent.awareness.sees {
-                Sight::Own => None,
-                Sight::Start => Some("start"),
-                Sight::Objects => Some("objects"),
-            },
+            sees: Some(agent.awareness.sees).filter(|&sees| sees != Sight::Own).map(Sight::name),
             waits: (agent.awareness.waits > 0).then_some(agent.awareness.waits),
             start: None,
         }
