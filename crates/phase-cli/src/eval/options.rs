@@ -70,7 +70,8 @@ pub struct EvalBeliefs {
     /// was at the start
     #[arg(long, value_name = "METHOD", value_parser = PossibleValuesParser::new(methods::BELIEF_READERS))]
     pub method: String,
-    /// 1: where each agent believes each entity to be; 2: where it believes the other to believe it
+    /// Order of the beliefs, 1 to 2: where each agent believes each entity to be, or where it believes the
+    /// other to believe it
     #[arg(long, value_name = "1|2", default_value_t = 1, value_parser = value_parser!(u8).range(1..=2))]
     pub order: u8,
     /// Events and output.
