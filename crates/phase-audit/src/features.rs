@@ -1,6 +1,6 @@
 //! The features of an event that are known without looking at its motion.
 
-use crate::report::TARGETS;
+use crate::target::TARGETS;
 use phase_dataset::labels::goal_label;
 use phase_event::Recording;
 use phase_model::{AgentId, Awareness, Entity, MAX_ENTITIES, MAX_OBJECTS, Scene, SlotId, State};
@@ -183,7 +183,7 @@ fn moved(before: &State, after: &State, entity: Entity) -> f64 {
     before.position(entity).distance(after.position(entity)).into()
 }
 
-/// What an agent knows without finding it out, as a class.
+/// An agent's knowledge without finding it out, as a class.
 fn knowledge(Awareness { knows, sees, .. }: Awareness) -> String {
     format!("{knows:?}, {sees:?}")
 }

@@ -1,9 +1,9 @@
 //! Shortcuts in a dataset: how much a standard classifier tells of events without looking at motion.
 //!
-//! A benchmark must not be solvable without looking. [`audit()`] trains a random forest on features that are
-//! known before anything moves ([`Feature`]), feature by feature and all together, and measures by
-//! cross-validation how often it names the relation, the kind of event and each agent's goal. Beside it
-//! stands the share of the most frequent class, which needs no feature at all.
+//! A benchmark must not be solvable without looking. [`audit()`] trains a random forest on features that
+//! are known before anything moves ([`Feature`]), feature by feature and all together, and measures by
+//! cross-validation how often it names the relation, the kind of event, each agent's goal and its
+//! knowledge. Beside it stands the share of the most frequent class, which needs no feature at all.
 //!
 //! Events that share their bodies are in the same fold: otherwise the forest would recognise bodies, and with
 //! them what the others that share them are *not*.
@@ -44,6 +44,8 @@ mod features;
 mod folds;
 mod forest;
 mod report;
+mod target;
 
 pub use features::{AuditItem, Feature, FirstFrame};
-pub use report::{Audit, AuditRow, MAX_EVENTS, Target, audit, cross_validated, summary, table};
+pub use report::{Audit, AuditRow, MAX_EVENTS, audit, cross_validated, summary, table};
+pub use target::Target;

@@ -1,6 +1,6 @@
 //! The audit: accuracies by features and targets.
 
-use crate::{AuditItem, Feature, folds::folds, forest};
+use crate::{AuditItem, Feature, Target, folds::folds, forest, target::TARGETS};
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -13,42 +13,6 @@ const MIN_EVENTS: usize = 50;
 pub const MAX_EVENTS: usize = 3000;
 /// Seed of folds and forests.
 const SEED: u64 = 1;
-
-/// A label that the forest predicts.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
-pub enum Target {
-    /// Friendly, neutral, adversarial.
-    Relation,
-    /// The kind of event.
-    Kind,
-    /// The goal of agent 0, of sixteen classes.
-    GoalOfAgent0,
-    /// The goal of agent 1.
-    GoalOfAgent1,
-    /// What each agent knows of the other's mind and of objects without finding it out.
-    Knowledge,
-}
-
-/// Number of targets.
-pub(crate) const TARGETS: usize = Target::ALL.len();
-
-impl Target {
-    /// All targets, in the order of tables.
-    pub const ALL: [Self; 5] =
-        [Self::Relation, Self::Kind, Self::GoalOfAgent0, Self::GoalOfAgent1, Self::Knowledge];
-
-    /// The name of the target in tables.
-    #[must_use]
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Relation => "relation",
-            Self::Kind => "kind",
-            Self::GoalOfAgent0 => "goal of agent 0",
-            Self::GoalOfAgent1 => "goal of agent 1",
-            Self::Knowledge => "knowledge",
-        }
-    }
-}
 
 /// Accuracies of one group of features.
 #[derive(Clone, Copy, PartialEq, Debug)]
