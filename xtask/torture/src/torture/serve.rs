@@ -172,6 +172,22 @@ fn place(is_plain: bool) -> Result<TempDir, TortureError> {
         "raters_per_video": RATERS, "videos_per_rater": VIDEOS,
     });
     write("torture.json", study.to_string().as_bytes())?;
+    let agent = |number: u8, landmark: u8| {
+        json!({
+            "size_level": 0, "strength_level": 3, "alpha": 0,
+            "goal": { "kind": "agent_on_landmark", "agent": number, "landmark": landmark, "sign": 1 },
+        })
+    };
+    let scene = json!({
+        "id": "scene", "layout": { "base": 0 }, "objects": [], "event": "independent",
+        "agents": [agent(0, 1), agent(1, 0)],
+        "trajectory": {
+            "columns": ["x", "y", "vx", "vy", "angle"], "objects": [],
+            "agents": [[[23.5, 8, 0, 0, 0]], [[8.5, 8, 0, 0, 0]]],
+        },
+    });
+    let scenes = json!({ "format": "phase-events/1", "events": [scene] });
+    write("scenes.json", scenes.to_string().as_bytes())?;
     let out = place.path().join("out");
     fs::create_dir(&out).map_err(|source| super::run::failed(&out, "create the folder", source))?;
     if is_plain {

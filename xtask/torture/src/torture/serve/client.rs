@@ -48,13 +48,15 @@ fn ask(
 /// A rater, and how many of its answers were acknowledged.
 pub(super) struct Rater {
     token: Option<String>,
+    /// Whether its consent was acknowledged, from which on it exists for the server.
+    agreed: bool,
     acknowledged: u64,
 }
 
 impl Rater {
     /// Comes, and answers until the server does not.
     pub(super) fn take_part(address: SocketAddr, number: usize) -> Self {
-        let mut rater = Self { token: None, acknowledged: 0 };
+        let mut rater = Self { token: None, agreed: false, acknowledged: 0 };
         let joined = json!({ "parameters": { "PROLIFIC_PID": format!("p{number}") } });
         let Some((200, joined)) = ask(address, "POST", "/study/torture/api/join", None, &joined) else {
             return rater;
@@ -64,6 +66,7 @@ impl Rater {
             if rater.step(address, what, &body).is_none() {
                 return rater;
             }
+            rater.agreed = true;
         }
         while rater.answer(address, rater.acknowledged + 1).is_some() {
             rater.acknowledged += 1;
@@ -87,7 +90,7 @@ impl Rater {
 
     /// All answers that were acknowledged are there, and the next one is taken.
     pub(super) fn check(&self, address: SocketAddr) -> Result<(), Wrong> {
-        let Some(token) = &self.token else { return Ok(()) };
+        let Some(token) = self.token.as_ref().filter(|_| self.agreed) else { return Ok(()) };
         let state = ask(address, "GET", "/study/torture/api/state", Some(token), &Value::Null);
         let Some((200, state)) = state else {
             return Err(format!("afterwards a rater is told {state:?}").into());

@@ -42,7 +42,9 @@ impl Server {
                 command
             }
         };
-        command.current_dir(place).args(words).args(minds).args(["--study", "torture.json"]);
+        // Without scenes a server with a study has no game.
+        let tasks = ["--study", "torture.json", "--scenes", "scenes.json"];
+        command.current_dir(place).args(words).args(minds).args(tasks);
         command.env_remove(phase_files::fault::VARIABLE);
         command.stdout(Stdio::piped()).stderr(Stdio::piped());
         if start.is_plain {
@@ -61,7 +63,12 @@ impl Server {
         });
         match (address, admin) {
             (Some(address), Some(admin)) => Ok(Self { child, address, admin }),
-            _ => Err(told(&mut child)),
+            (None, Some(_)) => {
+                let _ = child.kill();
+                let _ = child.wait();
+                Err("it does not begin with the address of the game".into())
+            }
+            (_, None) => Err(told(&mut child)),
         }
     }
 
