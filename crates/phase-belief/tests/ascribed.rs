@@ -21,7 +21,7 @@ fn state(landmark: usize, faces: bool) -> State {
     ])
 }
 
-/// Where the object is believed to be after each of the sets of particles.
+/// The room of the object in an ascribed belief, after each of the sets of particles.
 fn ascribed(particles: &[&[State]], sees: Sight) -> Vec<[f64; 5]> {
     let agents = [AgentBody { radius: 0.8, max_force: 300.0 }; 2];
     let physics = PhysicsConfig { walls: Vec::new(), agents, object_radii: [0.8; 2], object_count: 1 };

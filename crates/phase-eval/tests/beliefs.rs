@@ -69,7 +69,8 @@ fn scores_are_those_of_the_questions() {
     let unsure = [0.5, 0.25, 0.25, 0.0, 0.0];
     let answers: Vec<Beliefs> = vec![[vec![certain(SEEN), unsure], vec![certain(2), certain(0)]]];
     let moved = |_, agent: AgentId, _| agent == AgentId::ZERO;
-    let questions = BeliefEvent::questions(BeliefOrder::First, &[4], 1, &truth, &answers, moved).unwrap();
+    let questions = BeliefEvent::questions(BeliefOrder::First, &[4], 1, &truth, &answers, moved);
+    let questions = questions.expect("answers for every entity");
     // The particles of the fourth belief agree on no place.
     assert_eq!(questions.len(), 3);
     let event = BeliefEvent {
@@ -79,8 +80,9 @@ fn scores_are_those_of_the_questions() {
         cpu_seconds: None,
         details: Default::default(),
     };
-    let summary = BeliefSummary::of(&[event], 1).unwrap();
-    let [all, unseen, moved] = [&summary.all, &summary.unseen, &summary.moved].map(|it| it.as_ref().unwrap());
+    let summary = BeliefSummary::of(&[event], 1).expect("one event");
+    let [all, unseen, moved] =
+        [&summary.all, &summary.unseen, &summary.moved].map(|it| it.as_ref().expect("questions"));
     assert_eq!((all.questions, unseen.questions, moved.questions), (3, 2, 1));
     assert!((all.accuracy.value - 2.0 / 3.0).abs() < 1e-12);
     assert!((unseen.accuracy.value - 0.5).abs() < 1e-12);

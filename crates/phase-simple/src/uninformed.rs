@@ -1,8 +1,8 @@
 //! Beliefs of helpers and hinderers that do not know the other's goal.
 //!
-//! Such an agent acts on what it supposes the other to want, whatever that is. So of all its intents there
-//! is one explanation for each attitude and level of reasoning, and its beliefs, with its suppositions, are
-//! computed once. What it wants follows from what the other is seen to pursue.
+//! A helper or hinderer that does not know the other's goal acts on the goal that it supposes. Therefore all
+//! its intents share one explanation for each attitude and level of reasoning, and its beliefs, with its
+//! suppositions, are computed once. Its own intent follows from what the other is seen to pursue.
 
 use crate::{Hypothesis, ImaginedAgents, Intent, InverseDynamics, beliefs::EstimatedBeliefs};
 use phase_event::ObservedEvent;

@@ -132,7 +132,8 @@ fn labels() -> Vec<Box<dyn Column>> {
             "",
             "string",
             "",
-            "in a set, what that agent wants with regard to the other (`help`, `hinder`, `indifferent`, `same` or `rival`), or whether it knows what the other does (`unaware` or `told`)",
+            "in a set, what that agent wants with regard to the other (`help`, `hinder`, `indifferent`, `same` or \
+             `rival`), or whether it knows what the other does (`unaware` or `told`)",
             |row| row.entry.set.as_ref().map_or_else(String::new, |place| place.stance.name().to_owned())
         ),
         (
@@ -163,7 +164,8 @@ fn labels() -> Vec<Box<dyn Column>> {
             "[2]",
             "int32",
             "",
-            "how far an agent that knows nothing reasons about the other's mind, 0 to 2; null for one that knows",
+            "how far an agent that knows nothing reasons about the other's mind, 0 to 2; null for one that \
+             knows",
             |row| row.of_agents(|agent| agent
                 .awareness
                 .knows
@@ -175,7 +177,8 @@ fn labels() -> Vec<Box<dyn Column>> {
             "[2]",
             "string",
             "",
-            "of which objects it knows the place: `own`, those it sees; `start`, also where all were at the start; `objects`, all",
+            "of which objects it knows the place: `own`, those it sees; `start`, also where all were at the \
+             start; `objects`, all",
             |row| row.of_agents(|agent| agent.awareness.sees.name().to_owned())
         ),
         ("waits", "[2]", "int32", "steps", "steps for which it watches before it acts", |row| row

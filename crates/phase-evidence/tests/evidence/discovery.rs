@@ -1,4 +1,4 @@
-//! How helpers and hinderers find out what the other wants, in events made of thoughts.
+//! Discovery of the other's goal by helpers and hinderers, in events made of thoughts.
 
 use crate::selection::{THING, event, place, scene};
 use phase_event::{BelievedIntent, Event, Step, Thought};
@@ -11,7 +11,7 @@ use phase_model::{
     PredicateTarget, State, Subgoal,
 };
 
-/// What agent 0 does in a step: it watches, or pursues a plan for a goal that it supposes.
+/// A step of agent 0: it watches, or pursues a plan for a goal that it supposes.
 #[derive(Clone, Copy)]
 enum Does {
     Watch,
