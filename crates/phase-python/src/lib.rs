@@ -31,7 +31,7 @@ mod world;
 mod worlds;
 
 use phase_model::setting::{EVENT_STEPS, EVENTS, THREADS};
-use phase_sim::vector;
+use phase_sim::{Engine, vector};
 use pyo3::prelude::*;
 
 /// The native part of `phase_events`.
@@ -45,6 +45,7 @@ fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("MOST_EVENTS", EVENTS.most())?;
     module.add("OBSERVATION_PARTS", observation_parts())?;
     module.add("ACTIONS", scene::action_names())?;
+    module.add("ENGINES", Engine::ALL.map(Engine::name))?;
     module.add("GOALS", scene::goals_as_json()?)?;
     module.add("LANDMARKS", observed::landmarks(py)?)?;
     module.add_class::<scene::Scene>()?;

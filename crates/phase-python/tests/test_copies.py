@@ -11,6 +11,7 @@ from conftest import QUICK, same
 
 import phase_events as phase
 from phase_events import phase_v0
+from phase_events._native import ENGINES
 from phase_events.env import PhaseEnv, PhaseParallelEnv
 from phase_events.vector import PhaseVectorEnv
 
@@ -58,7 +59,7 @@ def test_a_sequence_of_events_is_found_from_another_folder(event, tmp_path, monk
 
 
 @copies
-@pytest.mark.parametrize("engine", ["world", "forward"])
+@pytest.mark.parametrize("engine", ENGINES)
 def test_parallel_environments(copied, engine):
     env = PhaseParallelEnv("chasing", engine=engine, max_steps=8)
     assert same(copied(env).reset(seed=3), env.reset(seed=3))

@@ -20,6 +20,7 @@ from pettingzoo.test import (
 
 import phase_events as phase
 from phase_events import phase_v0
+from phase_events._native import ENGINES
 from phase_events.env import PhaseEnv, PhaseParallelEnv
 from phase_events.observation import split_observation
 
@@ -78,7 +79,7 @@ def test_gymnasium_makes_it():
     assert ends == [False] * 4 + [True]
 
 
-@pytest.mark.parametrize("engine", ["world", "forward"])
+@pytest.mark.parametrize("engine", ENGINES)
 def test_minds_play_the_event_that_is_simulated(scene, engine):
     """Nothing is lost in observations: minds that see only them decide as those of the simulation, bit for bit."""
     event = phase.simulate(scene, seed=7, engine=engine, max_steps=45, parameters=QUICK)

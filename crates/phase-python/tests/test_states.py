@@ -11,6 +11,7 @@ import pytest
 from conftest import QUICK, same
 
 import phase_events as phase
+from phase_events._native import ENGINES
 from phase_events.env import PhaseEnv, PhaseParallelEnv
 from phase_events.vector import PhaseVectorEnv
 
@@ -34,7 +35,7 @@ def actions_of(random, count):
 
 
 @ways
-@pytest.mark.parametrize("engine", ["world", "forward"])
+@pytest.mark.parametrize("engine", ENGINES)
 def test_any_moment_of_any_scene(way, engine):
     """Random scenes, moments and actions; the environment goes elsewhere between saving and restoring."""
     held = touched = 0

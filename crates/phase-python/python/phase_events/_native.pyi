@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 ACTIONS: Final[list[str]]
+ENGINES: Final[list[str]]
 MOST_EVENTS: Final[int]
 MOST_STEPS: Final[int]
 MOST_THREADS: Final[int]

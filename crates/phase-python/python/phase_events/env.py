@@ -23,7 +23,7 @@ from gymnasium import spaces
 
 from . import _native
 from ._check import MOST_STEPS, as_action, choice, seed_of, whole
-from ._native import ACTIONS, OBSERVATION_SIZE, PhaseError
+from ._native import ACTIONS, ENGINES, OBSERVATION_SIZE, PhaseError
 from .events import SIDES
 from .policies import HeuristicPolicy, Mind, RandomPolicy, StillPolicy
 from .rewards import Transition, as_reward, rewarded
@@ -34,7 +34,6 @@ STEPS_PER_SECOND = 4
 AGENTS = ("agent_0", "agent_1")
 VECTORS = ("view", "state")
 VIEWS = (*VECTORS, "image", "state_image")
-ENGINES = ("world", "forward")
 
 
 def observation_space(observation="view", image_side=64):
@@ -414,7 +413,8 @@ class PhaseParallelEnv(pettingzoo.ParallelEnv):
             everything. Pictures show neither goals nor attitudes.
         image_side: the side of a picture that is an observation (pixels), 64 to 2000.
         reward: ``equation_1``, ``progress``, or a function (:mod:`phase_events.rewards`).
-        engine: ``world`` (rapier2d) or ``forward`` (the kernel that minds plan in: faster).
+        engine: ``world`` (rapier2d), ``forward`` (the kernel that minds plan in: faster) or ``original`` (the published simulator's world,
+            bit for bit).
         max_steps: steps after which an episode is truncated.
         render_mode: ``None``, ``rgb_array`` or ``human``.
         side: the side of a picture of :meth:`render` (pixels), 64 to 2000.

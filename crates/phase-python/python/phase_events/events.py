@@ -440,7 +440,7 @@ def simulate(scene, seed=0, *, id="event", engine="world", max_steps=100, parame
         scene: a :class:`Scene`, a dict or JSON text.
         seed: a whole number from 0 to 2**64 - 1. One seed gives one event, on every machine.
         id: the name of the event.
-        engine: ``world`` (rapier2d) or ``forward`` (the kernel that minds plan in).
+        engine: ``world`` (rapier2d), ``forward`` (the kernel that minds plan in) or ``original`` (the published simulator's world, bit for bit).
         max_steps: the greatest length (steps of 0.25 s), 1 to 10000. The event ends earlier once nothing happens any more.
         parameters: a dict of the parameters of both minds that differ from the defaults of their kind (docs/explanation/minds.md), such as
             ``{"simulations": 200}`` or ``{"kind": "published"}``.

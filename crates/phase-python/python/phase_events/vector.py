@@ -11,9 +11,8 @@ from gymnasium.vector.utils import batch_space
 
 from . import _native
 from ._check import MOST_STEPS, as_action, choice, seed_of, whole
-from ._native import ACTIONS, MOST_THREADS, OBSERVATION_SIZE, PhaseError
+from ._native import ACTIONS, ENGINES, MOST_THREADS, OBSERVATION_SIZE, PhaseError
 from .env import (
-    ENGINES,
     STEPS_PER_SECOND,
     VIEWS,
     EnvState,
