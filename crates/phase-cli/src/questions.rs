@@ -6,7 +6,7 @@ use phase_dataset::splits::Split;
 use phase_questions::Row;
 use phase_runs::{
     eval::methods::recognisers,
-    questions::{Asked, GUESS, QuestionRun, Scored, score_file},
+    questions::{Asked, QuestionRun, Scored, answerers, score_file},
 };
 use serde_json::json;
 use std::{collections::BTreeMap, fmt::Write as _, path::PathBuf};
@@ -34,13 +34,14 @@ pub struct Questions {
         value_parser = PossibleValuesParser::new(recognisers())
     )]
     pub certify: String,
-    /// Methods whose answers are written, too, separated by commas; `guess` is a random forest that is given
-    /// the words, or the words and the first frame
+    /// Methods whose answers are written, too, separated by commas, to the types of questions that they
+    /// judge; `guess` is a random forest that is given the words, or the words and the first frame, and
+    /// `rules` answers what motion shows
     #[arg(
         long,
         value_name = "METHODS",
         value_delimiter = ',',
-        value_parser = PossibleValuesParser::new(recognisers().into_iter().chain([GUESS]))
+        value_parser = PossibleValuesParser::new(answerers())
     )]
     pub answers: Vec<String>,
     /// Most questions of each type, 1 to 1000000; others are left out at random
@@ -140,6 +141,9 @@ pub fn score(arguments: &ScoreOptions, _context: &Context) -> Result<(), CliErro
     }
     if let Some(sets) = &score.sets {
         let _ = writeln!(text, "\nSets of which every relation is right: {} of {}", sets.right, sets.of);
+    }
+    if let Some(pairs) = &score.belief_pairs {
+        let _ = writeln!(text, "\nPairs of beliefs of which both are right: {} of {}", pairs.right, pairs.of);
     }
     if let (Some(cross), Some(own)) = (score.cross_entropy, score.human_entropy) {
         let _ = writeln!(text, "\nCross-entropy against people: {cross:.3} nat (at least {own:.3})");

@@ -1,17 +1,22 @@
 //! Everything that can be asked about an event, or about two that differ in one social variable.
 
+mod shown;
 mod social;
+#[cfg(test)]
+pub(crate) mod tests;
+
+pub(crate) use shown::shows_relation;
 
 use crate::{
-    Facts, Query,
+    Alternative, Facts, Query,
     facts::nearer,
     query::{clear_room, room_value},
 };
 use phase_evidence::{
-    GoalOutcome,
+    Effect, GoalOutcome, Track,
     selection::{Counterfactual, Ending, check_event},
 };
-use phase_model::{AgentId, Entity, Goal, ObjectId, RoomId, State, layout::room_of};
+use phase_model::{AgentId, Entity, Goal, ObjectId, RoomId, Scene, Sight, Sign, State, layout::room_of};
 use phase_perception::observed_set;
 use serde_json::{Value, json};
 
@@ -25,7 +30,10 @@ const LOOK_STEPS: usize = 3;
 /// Moments at which it is asked what is believed.
 const BELIEF_STEPS: [usize; 3] = [16, 28, 40];
 /// Least share of the particles for a belief.
-const SURE: f64 = 0.8;
+pub(crate) const SURE: f64 = 0.8;
+/// Least distance from its landmark at which a goal's subject has clearly not arrived (u): half the side of a
+/// landmark, and two units more.
+const MISSED: f32 = 4.5;
 
 /// A question before its options are ordered and its words chosen.
 #[derive(Clone, Debug)]
@@ -63,9 +71,20 @@ fn rooms_beside(room: RoomId) -> impl Iterator<Item = RoomId> {
     RoomId::ALL.into_iter().filter(move |&it| it.index().abs_diff(room.index()) % 2 == 1)
 }
 
+/// Whether an agent of a scene knows more of objects than its senses tell. Such events are made for questions
+/// about beliefs, and may end before they show anything else.
+#[must_use]
+pub fn is_about_beliefs(scene: &Scene) -> bool {
+    scene.agents.iter().any(|agent| agent.awareness.sees != Sight::Own)
+}
+
 /// All drafts about one event.
 pub(crate) fn about_event(facts: &Facts) -> Vec<Draft> {
     let mut asker = Asker { facts, drafts: Vec::new() };
+    if is_about_beliefs(&facts.scene) {
+        asker.minds();
+        return asker.drafts;
+    }
     asker.social();
     asker.places();
     asker.handling();
@@ -145,7 +164,8 @@ impl Asker<'_> {
             let stratum = self.nearer_to(object);
             let query = Query::FirstTouch { object };
             if let Some(value) = query.seen(&self.facts.track) {
-                let proof = json!({ "rule": "outlines at most 0.1 u apart, at least 4 steps before the other agent" });
+                let rule = "touched for at least 3 steps, the other agent apart until at least 4 steps later";
+                let proof = json!({ "rule": rule });
                 self.ask(query, texts(["0", "1"]), value, stratum.clone(), proof);
             }
             // Without grips nothing is known of holding.
@@ -164,8 +184,9 @@ impl Asker<'_> {
         format!("agent {} nearer, in its room {inside:?}", nearer(first, object))
     }
 
-    /// Objects that agents have seen, and their beliefs, by their observations and particles. Events that are
-    /// made for false beliefs, and their second-order questions, are to be asked about here, too.
+    /// Objects that agents have seen, and their beliefs, by their observations and particles. It is not asked
+    /// what an agent believes that knows more than it sees, or whose particles went on without it: those of
+    /// an object that was carried when it was last seen may follow it, and nothing shows how far.
     fn minds(&mut self) {
         let Some(inside) = &self.facts.inside else { return };
         let mut asked = Vec::new();
@@ -196,22 +217,34 @@ impl Asker<'_> {
                     let stratum = format!("step {step}, {} room", if near { "same" } else { "other" });
                     asked.push((query, texts(["yes", "no"]), value, stratum, proof));
                 }
+                if self.facts.scene.agents[agent].awareness.sees != Sight::Own {
+                    continue;
+                }
                 for step in BELIEF_STEPS.into_iter().filter(|&step| step < observed.len()) {
-                    let seen = observed[..=step].iter().any(|&seen| seen);
+                    let Some(last) = observed[..=step].iter().rposition(|&seen| seen) else { continue };
                     let belief = inside.beliefs[agent].get(step).and_then(|rooms| rooms.get(object.index()));
                     let Some(&(room, share)) = belief else { continue };
-                    if observed[step] || !seen || share < SURE {
+                    let seen = &inside.states[last];
+                    let rested = AgentId::ALL.iter().all(|&agent| !seen.holds(agent, object));
+                    let query = Query::Believes { agent, object, step };
+                    if observed[step]
+                        || share < SURE
+                        || !rested
+                        || clear_room(seen, entity) != Some(room)
+                        || query.seen(&self.facts.track) != Some(room_value(room))
+                    {
                         continue;
                     }
                     let start = room_of(inside.states[0].position(entity));
                     let truth = room_of(inside.states[step].position(entity));
                     let proof = json!({
-                        "rule": "particles of the agent's belief", "share_of_particles": share,
+                        "rule": "particles of the agent's belief, which are where it saw the object last",
+                        "share_of_particles": share, "last_seen_step": last,
                         "true_room": truth, "false_belief": truth != room,
                     });
                     let values = RoomId::ALL.into_iter().map(room_value).collect();
                     asked.push((
-                        Query::Believes { agent, object, step },
+                        query,
                         values,
                         room_value(room),
                         format!("step {step}, object first in room {start}"),
@@ -231,11 +264,10 @@ impl Asker<'_> {
         let mut asked = Vec::new();
         if let Some(without) = &inside.without {
             let judged = self.facts.scene.agents[without.idle.other()].goal;
-            let outcomes = [&self.facts.track, &without.track].map(|track| GoalOutcome::of(track, judged));
-            if let Some(value) = change(self.facts, judged, without) {
+            if let Some((value, outcomes)) = change(&self.facts.track, judged, without) {
                 let proof = json!({
                     "rule": "the same scene and seed, simulated with the agent neutral and idle",
-                    "idle": without.idle, "with": outcomes[0], "without": outcomes[1],
+                    "idle": without.idle, "with": outcomes.with, "without": outcomes.without,
                 });
                 let query = Query::Without { idle: without.idle, judged };
                 let values = texts(["better", "worse", "same"]);
@@ -276,25 +308,26 @@ impl Asker<'_> {
     }
 }
 
-/// The judged agent's success without the idle one: `better`, `worse` or `same`; `None` where the
-/// difference is neither clear nor absent.
-fn change(facts: &Facts, judged: Goal, without: &crate::Alternative) -> Option<&'static str> {
-    use phase_evidence::{Effect, selection::CausalEffect};
-    let [with, none] = [&facts.track, &without.track].map(|track| GoalOutcome::of(track, judged));
-    let shows = |change| {
-        let counterfactual =
-            Counterfactual { idle: without.idle, judged: without.idle.other(), change, cut: true };
-        counterfactual.judge(&facts.scene, &facts.track, &without.track).is_ok()
-    };
-    match (shows(CausalEffect::Helped), shows(CausalEffect::Hindered)) {
-        (true, false) => Some("worse"),
-        (false, true) => Some("better"),
-        (false, false) if with.reached == none.reached => {
-            let effect = Effect { with, without: none };
-            (!effect.helped() && !effect.hindered()).then_some("same")
-        }
-        _ => None,
+/// Whether a goal is reached only without the idle agent (`better`), only with it (`worse`), or equally soon
+/// (`same`); `None` where it is missed both times, or nearly reached once, or sooner once.
+fn change(track: &Track, judged: Goal, without: &Alternative) -> Option<(&'static str, Effect)> {
+    if judged.sign() == Sign::Negative || judged.landmark().is_none() {
+        return None;
     }
+    let effect =
+        Effect { with: GoalOutcome::of(track, judged), without: GoalOutcome::of(&without.track, judged) };
+    let missed = |track: &Track| track.states.last().is_some_and(|state| is_missed(state, judged));
+    let value = match (effect.with.reached, effect.without.reached) {
+        (true, true) => (!effect.helped() && !effect.hindered()).then_some("same"),
+        (true, false) => missed(&without.track).then_some("worse"),
+        (false, true) => missed(track).then_some("better"),
+        (false, false) => None,
+    };
+    value.map(|value| (value, effect))
+}
+
+fn is_missed(state: &State, goal: Goal) -> bool {
+    goal.distance(state) >= MISSED
 }
 
 /// The agent whose absence an event is compared with: that of the test of its label, or agent 1 where that

@@ -3,10 +3,11 @@
 use crate::{
     BUDGETS, Choice, Facts, FrameBudget, Query, Question, Watched,
     ask::{Draft, about_event},
+    beliefs::about_beliefs,
     pairs::about_pair,
     words,
 };
-use phase_model::{AgentId, ObjectId, words::Names};
+use phase_model::{AgentId, Entity, ObjectId, words::Names};
 use rand::{Rng, RngExt, seq::SliceRandom};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -17,7 +18,8 @@ use std::collections::{BTreeMap, BTreeSet};
 /// place equally often. Of each type no more than `per_type` are made.
 ///
 /// No question about an event tells the answer of another one about it: where an agent is said to know of an
-/// object that it does not see, it is not asked whether it has seen it.
+/// object that it does not see, it is not asked whether it has seen it; where a goal is named, it is not
+/// asked what anybody wants, or where its subject ends.
 #[must_use]
 pub fn questions<R: Rng>(
     events: &[Facts],
@@ -34,7 +36,9 @@ pub fn questions<R: Rng>(
         if set.is_some() {
             for one in first..after {
                 for other in one + 1..after {
-                    drafts.extend(about_pair([&events[one], &events[other]]));
+                    let pair = [&events[one], &events[other]];
+                    drafts.extend(about_pair(pair));
+                    drafts.extend(about_beliefs(pair));
                 }
             }
         }
@@ -62,8 +66,18 @@ fn without_hints(drafts: &mut Vec<Draft>) {
             _ => None,
         })
         .collect();
+    let goals: BTreeSet<(String, Entity)> = drafts
+        .iter()
+        .filter_map(|draft| match draft.query {
+            Query::Without { judged, .. } => Some((draft.events[0].clone(), judged.subject())),
+            _ => None,
+        })
+        .collect();
+    let with_goals: BTreeSet<String> = goals.iter().map(|(event, _)| event.clone()).collect();
     drafts.retain(|draft| match draft.query {
         Query::Seen { agent, object, .. } => !told.contains(&(draft.events[0].clone(), agent, object)),
+        Query::Goal { .. } => !with_goals.contains(&draft.events[0]),
+        Query::EndRoom { entity } => !goals.contains(&(draft.events[0].clone(), entity)),
         _ => true,
     });
 }

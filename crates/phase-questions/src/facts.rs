@@ -92,8 +92,10 @@ pub(crate) fn nearer(state: &State, object: ObjectId) -> usize {
 /// A video as somebody has watched it.
 #[derive(Clone, Debug)]
 pub struct Watched {
-    /// The motion that was seen.
+    /// The motion that was seen, where bodies go straight from one frame to the next.
     pub track: Track,
+    /// The motion that the frames alone prove, see [`stills`](crate::stills).
+    pub stills: Track,
     /// The judgement of a method about it.
     pub judgement: Option<Judgement>,
 }

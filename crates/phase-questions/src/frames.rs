@@ -45,6 +45,18 @@ pub fn sampled(track: &Track, budget: FrameBudget) -> Track {
     Track { physics: track.physics.clone(), states }
 }
 
+/// The motion that the frames alone prove: everything stays as a frame shows it until the next one. What
+/// happens between two frames, such as a short touch, is not in it.
+#[must_use]
+pub fn stills(track: &Track, budget: FrameBudget) -> Track {
+    let shown = shown_steps(track.steps(), budget);
+    let states = (0..track.states.len()).filter_map(|step| {
+        let frame = shown.partition_point(|&it| it <= step).checked_sub(1)?;
+        track.states.get(shown[frame]).copied()
+    });
+    Track { physics: track.physics.clone(), states: states.collect() }
+}
+
 /// Frames in another order, shown as if it were theirs.
 #[must_use]
 pub fn reordered(track: &Track, order: &[usize]) -> Track {

@@ -58,6 +58,8 @@ pub fn accepted(query: &Query, names: &Names) -> Vec<Accepted> {
         | Query::RoomAt { .. }
         | Query::EntersFirst { .. }
         | Query::Believes { .. }
+        | Query::Expects { .. }
+        | Query::LooksNext { .. }
         | Query::Ahead { .. } => {
             let of = |landmark: LandmarkId| Accepted {
                 value: landmark.to_string(),
@@ -73,7 +75,7 @@ pub fn accepted(query: &Query, names: &Names) -> Vec<Accepted> {
                 [plain("both", &["both"]), plain("neither", &["neither", "none", "nobody", "no one"])];
             agents().chain(others).collect()
         }
-        Query::Seen { .. } => vec![plain("yes", &["yes"]), plain("no", &["no"])],
+        Query::Seen { .. } | Query::IsRight { .. } => vec![plain("yes", &["yes"]), plain("no", &["no"])],
         Query::PairHelp | Query::PairHinder | Query::PairTogether => {
             vec![plain("0", &["left"]), plain("1", &["right"])]
         }

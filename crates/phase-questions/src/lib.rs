@@ -27,6 +27,7 @@
 #![deny(missing_docs)]
 
 mod ask;
+mod beliefs;
 mod benchmark;
 mod facts;
 mod frames;
@@ -37,10 +38,10 @@ mod question;
 mod score;
 mod words;
 
-pub use ask::idle_of;
+pub use ask::{idle_of, is_about_beliefs};
 pub use benchmark::{frames_needed, questions};
 pub use facts::{Alternative, Facts, Inside, SimulatedFutures, Watched, believed_rooms};
-pub use frames::{BUDGETS, reordered, sampled, shown_steps};
+pub use frames::{BUDGETS, reordered, sampled, shown_steps, stills};
 pub use free::{Accepted, accepted, parse_free};
 pub use query::Query;
 pub use question::{Choice, Control, FrameBudget, NONE, Question, parse_answer};

@@ -2,13 +2,13 @@
 
 use crate::{
     Facts, Query,
-    ask::{Draft, texts},
+    ask::{Draft, shows_relation, texts},
 };
 use phase_evidence::parting::Parting;
 use phase_model::{Attitude, EventKind};
 use serde_json::json;
 
-/// All drafts about two events of a set, shown side by side.
+/// All drafts about two events of a set, shown side by side, of which both show what they are.
 pub(crate) fn about_pair(pair: [&Facts; 2]) -> Vec<Draft> {
     let of = |facts: &Facts| {
         let attitudes = facts.scene.attitudes();
@@ -28,6 +28,9 @@ pub(crate) fn about_pair(pair: [&Facts; 2]) -> Vec<Draft> {
     }
     let parting = Parting::of(&pair[0].track, &pair[1].track);
     let Some(seen) = parting.seen else { return Vec::new() };
+    if !pair.iter().all(|facts| shows_relation(&facts.scene, &facts.track)) {
+        return Vec::new();
+    }
     let draft = |(query, right): (Query, usize)| Draft {
         query,
         events: pair.map(|facts| facts.id.clone()).to_vec(),
@@ -37,10 +40,28 @@ pub(crate) fn about_pair(pair: [&Facts; 2]) -> Vec<Draft> {
         value: right.to_string(),
         stratum: String::new(),
         proof: json!({
-            "rule": "attitudes and goals of the scenes", "alphas": pair.map(|facts| facts.scene.attitudes()),
+            "rule": "attitudes and goals of the scenes, seen in what the agents touch and move",
+            "alphas": pair.map(|facts| facts.scene.attitudes()),
             "goals": pair.map(|facts| facts.scene.goals()), "visibly_parted_after_step": seen.step,
         }),
         p_human: None,
     };
     queries.into_iter().map(draft).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::about_pair;
+    use crate::ask::tests::{alone, shared};
+    use phase_model::AgentId;
+
+    /// Videos look alike if a helper does everything alone in one, and an independent agent in the other.
+    #[test]
+    fn pairs_are_asked_about_where_both_videos_show_what_they_are() {
+        let shows = shared("helping", [1, 0], AgentId::ONE);
+        let hides = alone("helping", [1, 0], AgentId::ZERO);
+        let apart = alone("independent", [0, 0], AgentId::ZERO);
+        assert_eq!(about_pair([&shows, &apart]).len(), 1);
+        assert!(about_pair([&hides, &apart]).is_empty());
+    }
 }

@@ -1,10 +1,11 @@
 //! Subjects of questions, and their answers from motion or from a method's judgement.
 
+mod judging;
+
 use crate::Watched;
-use phase_evidence::{contact, holding};
+use phase_evidence::{Track, contact, holding, search, selection::MIN_VISIBLE_STEPS};
 use phase_model::{
-    AGENT_COUNT, AgentId, Attitude, Entity, EventKind, Goal, Judgement, LandmarkId, ObjectId, Relation,
-    RoomId, Sign, State, Vec2,
+    AgentId, Entity, Goal, ObjectId, RoomId, State, Vec2,
     arena::{CENTRE, STEP_SECONDS},
     layout::room_of,
 };
@@ -13,8 +14,15 @@ use serde::{Deserialize, Serialize};
 
 /// Distance from the lines between the rooms from which a place counts as in its room (u).
 const ROOM_MARGIN: f32 = 1.0;
-/// Least number of steps between what two agents do for one of them to be the first.
-const FIRST_MARGIN: usize = 4;
+/// A second of video (steps): least time between what two agents do for one of them to be the first, and
+/// time for which something is in a room, before and after the moment that is asked about. A viewer who sees
+/// a frame now and then tells times no better.
+const MARGIN_STEPS: usize = 4;
+/// Distance between outlines at which a picture leaves open whether two bodies touch (u): ten pixels of a
+/// video of the usual size.
+const CLOSE: f32 = 0.4;
+/// Time in which an agent shows by its way where it is going (steps).
+const WAY_STEPS: usize = 8;
 /// Least number of steps for which an agent has to hold an object, and the distance it has to move (u).
 const CARRIED: (usize, f32) = (3, 1.0);
 /// The higher of two top speeds has to exceed the lower by this factor for its agent to count as stronger.
@@ -87,12 +95,40 @@ pub enum Query {
         /// After which step.
         step: usize,
     },
-    /// Whether an agent would have been more (`better`) or less (`worse`) successful, or neither (`same`),
-    /// had the other done nothing.
+    /// The room in which an agent that has waited expects an object to be, as its way shows. It may have been
+    /// told of what it did not see.
+    Expects {
+        /// The agent.
+        agent: AgentId,
+        /// The object.
+        object: ObjectId,
+        /// After which step.
+        step: usize,
+    },
+    /// Whether it is right about that: `yes` or `no`.
+    IsRight {
+        /// The agent.
+        agent: AgentId,
+        /// The object.
+        object: ObjectId,
+        /// After which step.
+        step: usize,
+    },
+    /// The room in which it will look for the object first, after the video ends.
+    LooksNext {
+        /// The agent.
+        agent: AgentId,
+        /// The object.
+        object: ObjectId,
+        /// The last step of the video.
+        step: usize,
+    },
+    /// Whether an agent would have reached its goal only then (`better`), not then (`worse`), or as it did
+    /// (`same`), had the other done nothing.
     Without {
         /// The agent that does nothing.
         idle: AgentId,
-        /// Its goal is compared.
+        /// The other's goal.
         judged: Goal,
     },
     /// The room of an entity some time after the video ends.
@@ -124,7 +160,7 @@ pub(crate) fn room_value(room: RoomId) -> String {
 
 impl Query {
     /// The names of all types.
-    pub const TYPES: [&str; 17] = [
+    pub const TYPES: [&str; 20] = [
         "relation",
         "kind",
         "role",
@@ -137,6 +173,9 @@ impl Query {
         "carrier",
         "seen",
         "believes",
+        "expects",
+        "is-right",
+        "looks-next",
         "without",
         "ahead",
         "pair-help",
@@ -160,6 +199,9 @@ impl Query {
             Self::Carrier { .. } => "carrier",
             Self::Seen { .. } => "seen",
             Self::Believes { .. } => "believes",
+            Self::Expects { .. } => "expects",
+            Self::IsRight { .. } => "is-right",
+            Self::LooksNext { .. } => "looks-next",
             Self::Without { .. } => "without",
             Self::Ahead { .. } => "ahead",
             Self::PairHelp => "pair-help",
@@ -186,29 +228,23 @@ impl Query {
     }
 
     /// The value that follows from motion; `None` if that leaves it open. This is the definition of the right
-    /// answer to all physical questions but `stronger`, `seen` and `believes`, for which it is the best guess
-    /// of an observer.
+    /// answer to all physical questions but `stronger` and those about what agents have seen and believe, for
+    /// which it is the best guess of an observer.
     #[must_use]
-    pub fn seen(&self, track: &phase_evidence::Track) -> Option<String> {
+    pub fn seen(&self, track: &Track) -> Option<String> {
         let states = &track.states;
         match *self {
             Self::EndRoom { entity } => clear_room(states.last()?, entity).map(room_value),
-            Self::RoomAt { entity, step } => clear_room(states.get(step)?, entity).map(room_value),
-            Self::FirstTouch { object } => {
-                let first = AgentId::ALL.map(|agent| {
-                    contact::steps_touching(track, Entity::Agent(agent), Entity::Object(object))
-                        .first()
-                        .copied()
-                });
-                let agent = match first {
-                    [Some(one), Some(other)] if one.abs_diff(other) < FIRST_MARGIN => return None,
-                    [Some(one), Some(other)] if one < other => AgentId::ZERO,
-                    [Some(_), None] => AgentId::ZERO,
-                    [_, Some(_)] => AgentId::ONE,
-                    [None, None] => return None,
-                };
-                Some(agent_value(agent))
+            Self::RoomAt { entity, step } => {
+                let room = clear_room(states.get(step)?, entity)?;
+                let around =
+                    states.iter().take(step + MARGIN_STEPS + 1).skip(step.saturating_sub(MARGIN_STEPS));
+                around
+                    .into_iter()
+                    .all(|state| room_of(state.position(entity)) == room)
+                    .then(|| room_value(room))
             }
+            Self::FirstTouch { object } => first_to_touch(track, object).map(agent_value),
             Self::EntersFirst { agent } => {
                 let entity = Entity::Agent(agent);
                 let start = room_of(states.first()?.position(entity));
@@ -238,6 +274,23 @@ impl Query {
                     states.iter().take(step + 1).rfind(|state| observes(track, state, agent, object))?;
                 Some(room_value(room_of(last.position(Entity::Object(object)))))
             }
+            Self::Expects { agent, object, step } => {
+                let look = search::first_look(track, agent, Entity::Object(object), step)?;
+                let seen = if look.at_old_place { states.first() } else { states.get(look.step) };
+                Some(room_value(room_of(seen?.position(Entity::Object(object)))))
+            }
+            Self::IsRight { agent, object, step } => {
+                let look = search::first_look(track, agent, Entity::Object(object), step)?;
+                Some(if look.at_old_place { "no" } else { "yes" }.to_owned())
+            }
+            Self::LooksNext { agent, object, .. } => {
+                let (first, last) = (states.first()?, states.last()?);
+                let before = states.iter().rev().nth(WAY_STEPS)?;
+                let place = |state: &State| state.position(Entity::Agent(agent));
+                let approach = |to: Vec2| place(before).distance(to) - place(last).distance(to);
+                let [old, new] = [first, last].map(|state| state.position(Entity::Object(object)));
+                Some(room_value(room_of(if approach(old) > approach(new) { old } else { new })))
+            }
             Self::Stronger => {
                 let top = AgentId::ALL.map(|agent| top_speed(states, agent));
                 Some(if top[0] > FASTER * top[1] {
@@ -257,7 +310,9 @@ impl Query {
     #[must_use]
     pub fn choice(&self, watched: &[Watched], values: &[String]) -> Option<usize> {
         if self.is_physical() {
-            let value = self.seen(&watched.first()?.track)?;
+            let Watched { track, stills, .. } = watched.first()?;
+            // Speeds are judged from frame to frame; nothing else has to be guessed between them.
+            let value = self.seen(if *self == Self::Stronger { track } else { stills })?;
             return values.iter().position(|known| *known == value);
         }
         let scores: Vec<f64> = values.iter().map(|value| self.score(watched, value)).collect();
@@ -265,108 +320,6 @@ impl Query {
         let worst = scores.iter().copied().fold(f64::INFINITY, f64::min);
         // A method that finds all options equally good does not answer.
         (best > worst).then(|| scores.iter().position(|&score| score >= best)).flatten()
-    }
-
-    /// Weight of a judgement for a value, at least 0.
-    fn score(&self, watched: &[Watched], value: &str) -> f64 {
-        let judged = |k: usize| watched.get(k).and_then(|it| it.judgement.as_ref());
-        let Some(judgement) = judged(0) else { return 0.0 };
-        let roles = judgement.roles.unwrap_or_default();
-        let number = |value: &str| value.parse::<usize>().ok();
-        match *self {
-            Self::Relation => relation(value).map_or(0.0, |it| judgement.relation.of(it)),
-            Self::Kind => EventKind::named(value).map_or(0.0, |kind| kind_probability(judgement, kind)),
-            Self::Role if value == "neither" => judgement.relation.neutral,
-            Self::Role => {
-                let (attitude, agent) = match value.rsplit_once('-') {
-                    Some(("helps", agent)) => (Attitude::Help, number(agent)),
-                    Some((_, agent)) => (Attitude::Hinder, number(agent)),
-                    None => return 0.0,
-                };
-                let agent = agent.and_then(|agent| AgentId::ALL.get(agent).copied());
-                agent.map_or(0.0, |agent| roles.of(agent, attitude).max(0.0))
-            }
-            Self::Goal { agent, subject } => {
-                let wanted = number(value).and_then(|number| LandmarkId::ALL.get(number).copied());
-                landmark_mass(&judgement.goals[agent], subject, wanted)
-            }
-            Self::Without { idle, .. } => {
-                let helps = roles.of(idle, Attitude::Help).max(0.0);
-                let hinders = roles.of(idle, Attitude::Hinder).max(0.0);
-                let friendly = (judgement.relation.friendly - roles.helps.iter().sum::<f64>()).max(0.0);
-                let adversarial =
-                    (judgement.relation.adversarial - roles.hinders.iter().sum::<f64>()).max(0.0);
-                match value {
-                    "worse" => helps + friendly,
-                    "better" => hinders + adversarial,
-                    _ => judgement.relation.neutral,
-                }
-            }
-            Self::Ahead { entity, .. } => {
-                let wanted = number(value).and_then(|number| LandmarkId::ALL.get(number).copied());
-                let goals = judgement.goals.iter().zip(AgentId::ALL);
-                // An agent that wants an object somewhere goes there with it.
-                goals
-                    .map(|(goals, agent)| match entity {
-                        Entity::Agent(it) if it == agent => goals
-                            .iter()
-                            .filter(|(goal, _)| goal.sign() == Sign::Positive && goal.landmark() == wanted)
-                            .map(|(_, p)| p)
-                            .sum(),
-                        Entity::Agent(_) => 0.0,
-                        Entity::Object(_) => landmark_mass(goals, entity, wanted),
-                    })
-                    .sum()
-            }
-            Self::PairHelp | Self::PairHinder | Self::PairTogether => {
-                let Some(judgement) = number(value).and_then(judged) else { return 0.0 };
-                let roles = judgement.roles;
-                match self {
-                    Self::PairHelp => {
-                        roles.map_or(judgement.relation.friendly, |roles| roles.helps.iter().sum())
-                    }
-                    Self::PairHinder => {
-                        roles.map_or(judgement.relation.adversarial, |roles| roles.hinders.iter().sum())
-                    }
-                    _ => judgement.relation.friendly,
-                }
-            }
-            _ => 0.0,
-        }
-    }
-}
-
-/// The probability that an agent with these goals wants an entity on a landmark.
-fn landmark_mass(goals: &[(Goal, f64)], subject: Entity, landmark: Option<LandmarkId>) -> f64 {
-    goals
-        .iter()
-        .filter(|(goal, _)| {
-            goal.sign() == Sign::Positive && goal.subject() == subject && goal.landmark() == landmark
-        })
-        .map(|(_, p)| p)
-        .sum()
-}
-
-fn relation(name: &str) -> Option<Relation> {
-    [Relation::Friendly, Relation::Adversarial, Relation::Neutral].into_iter().find(|it| it.name() == name)
-}
-
-/// The probability of a kind of event, from those of roles, relation and goals.
-fn kind_probability(judgement: &Judgement, kind: EventKind) -> f64 {
-    let roles = judgement.roles.unwrap_or_default();
-    let helping: f64 = roles.helps.iter().sum();
-    let hindering: f64 = roles.hinders.iter().sum();
-    let touch = judgement.goals.iter().flatten();
-    let touch: f64 = touch.filter(|(goal, _)| matches!(goal, Goal::Touch { .. })).map(|(_, p)| p).sum();
-    let touch = (touch / AGENT_COUNT as f64).clamp(0.0, 1.0);
-    let conflict = (judgement.relation.adversarial - hindering).max(0.0);
-    match kind {
-        EventKind::Helping => helping,
-        EventKind::Hindering => hindering,
-        EventKind::Collaborating => (judgement.relation.friendly - helping).max(0.0),
-        EventKind::Chasing => conflict * touch,
-        EventKind::Competing => conflict * (1.0 - touch),
-        EventKind::Independent => judgement.relation.neutral,
     }
 }
 
@@ -377,7 +330,28 @@ pub(crate) fn clear_room(state: &State, entity: Entity) -> Option<RoomId> {
     (away.x.abs() >= ROOM_MARGIN && away.y.abs() >= ROOM_MARGIN).then(|| room_of(place))
 }
 
-fn observes(track: &phase_evidence::Track, state: &State, agent: AgentId, object: ObjectId) -> bool {
+/// The agent whose touch of an object is seen to be the first: it lasts, and the other is clearly apart from
+/// the object until a second later.
+fn first_to_touch(track: &Track, object: ObjectId) -> Option<AgentId> {
+    let object = Entity::Object(object);
+    let touch = |state: &State, agent| contact::touching(&track.physics, state, Entity::Agent(agent), object);
+    let gap = |state: &State, agent| contact::gap(&track.physics, state, Entity::Agent(agent), object);
+    let lasting = |agent| {
+        track.states.windows(MIN_VISIBLE_STEPS).position(|some| some.iter().all(|state| touch(state, agent)))
+    };
+    let at = AgentId::ALL.map(lasting);
+    let first = match at {
+        [Some(one), Some(other)] if other < one => AgentId::ONE,
+        [Some(_), _] => AgentId::ZERO,
+        [None, Some(_)] => AgentId::ONE,
+        [None, None] => return None,
+    };
+    let until = at[first]? + MARGIN_STEPS;
+    let apart = track.states.iter().take(until).all(|state| gap(state, first.other()) > CLOSE);
+    apart.then_some(first)
+}
+
+fn observes(track: &Track, state: &State, agent: AgentId, object: ObjectId) -> bool {
     observed_set(&track.physics, state, agent).contains(Entity::Object(object))
 }
 

@@ -1,6 +1,6 @@
 //! The score of answers: by type, number of frames and control.
 
-use crate::{Control, FrameBudget, Question, accepted};
+use crate::{Control, FrameBudget, Query, Question, accepted};
 use phase_model::words::Names;
 use phase_statistics::wilson_interval;
 use serde::Serialize;
@@ -59,6 +59,9 @@ pub struct Score {
     /// Sets of events that differ in one social variable of which all relations were answered right, of those
     /// of which all were answered.
     pub sets: Option<Accuracy>,
+    /// Pairs of questions of one type about two events with opposite beliefs of which both were answered
+    /// right, of those of which both were answered.
+    pub belief_pairs: Option<Accuracy>,
     /// Mean cross-entropy of people's answers with the given probabilities (nat), where both are known.
     pub cross_entropy: Option<f64>,
     /// The mean entropy of people's answers there, the least cross-entropy that is possible.
@@ -91,7 +94,7 @@ pub fn score(questions: &[Question], answers: &[Answer]) -> Score {
             0 => usize::MAX - 1,
             frames => 1000 + frames,
         });
-        let place = crate::Query::TYPES.iter().position(|name| *name == question.query.type_name());
+        let place = Query::TYPES.iter().position(|name| *name == question.query.type_name());
         for (order, group) in [
             (0, "all".to_owned()),
             (1 + place.unwrap_or_default(), question.query.type_name().to_owned()),
@@ -121,7 +124,10 @@ pub fn score(questions: &[Question], answers: &[Answer]) -> Score {
     Score {
         unreadable: answers.iter().filter(|answer| answer.option.is_none()).count(),
         rows: rows.collect(),
-        sets: sets(&answered),
+        sets: sets(&answered, |query| matches!(query, Query::Relation)),
+        belief_pairs: sets(&answered, |query| {
+            matches!(query, Query::Expects { .. } | Query::IsRight { .. } | Query::LooksNext { .. })
+        }),
         cross_entropy: mean(|it| it.0),
         human_entropy: mean(|it| it.1),
     }
@@ -142,13 +148,15 @@ fn accuracy(entries: &[(bool, f64)]) -> Accuracy {
     }
 }
 
-/// Sets of which every answer about relation, roles and pairs is right.
-fn sets(answered: &[(&Question, &Answer)]) -> Option<Accuracy> {
-    let mut sets: BTreeMap<&str, (usize, bool, f64)> = BTreeMap::new();
+/// Sets of which every answer to questions of one type is right, of the types that are meant.
+fn sets(answered: &[(&Question, &Answer)], is_meant: impl Fn(&Query) -> bool) -> Option<Accuracy> {
+    let mut sets: BTreeMap<(&str, &str), (usize, bool, f64)> = BTreeMap::new();
     for (question, answer) in answered {
-        let social = matches!(question.query, crate::Query::Relation);
-        let (Some(set), true, Control::Video) = (&question.set, social, answer.control) else { continue };
-        let entry = sets.entry(set).or_insert((0, true, 1.0));
+        let (Some(set), true, Control::Video) = (&question.set, is_meant(&question.query), answer.control)
+        else {
+            continue;
+        };
+        let entry = sets.entry((set, question.query.type_name())).or_insert((0, true, 1.0));
         entry.0 += 1;
         entry.1 &= answer.option == Some(question.answer);
         entry.2 /= question.options.len() as f64;

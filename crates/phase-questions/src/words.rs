@@ -2,7 +2,7 @@
 
 use crate::Query;
 use phase_model::{
-    AgentId, Entity, EventKind, LandmarkId,
+    AgentId, Entity, EventKind, Goal, LandmarkId,
     arena::STEP_VIDEO_SECONDS,
     words::{self, Names, corner},
 };
@@ -135,15 +135,69 @@ pub(crate) fn question(query: &Query, phrasing: usize, names: &Names) -> String 
                 ),
             ])
         }
-        Query::Without { idle, .. } => {
+        Query::Expects { agent: whose, object, step } => {
+            let who = agent(whose);
+            let what = names.entity(Entity::Object(object));
+            let when = seconds(step);
+            pick([
+                format!(
+                    "The {who} sets out after {when}, and may have been told what it did not see. Judging by \
+                     its way, in which room does it then believe the {what} to be?"
+                ),
+                format!(
+                    "After {when} the {who} goes to look for the {what}. It may have been told where that \
+                     is. Where does it think it is?"
+                ),
+                format!(
+                    "Perhaps somebody told the {who} where the {what} is. To judge by what it does after \
+                     {when}, in which room does it expect the {what}?"
+                ),
+            ])
+        }
+        Query::IsRight { agent: whose, object, step } => {
+            let who = agent(whose);
+            let what = names.entity(Entity::Object(object));
+            let when = seconds(step);
+            pick([
+                format!(
+                    "The {who} sets out after {when}. Judging by its way, does it know in which room \
+                     the {what} is?"
+                ),
+                format!(
+                    "After {when} the {who} goes to look for the {what}. Is it right about the room in which \
+                     that is?"
+                ),
+                format!(
+                    "To judge by what the {who} does after {when}, is its belief about where the {what} is \
+                     true?"
+                ),
+            ])
+        }
+        Query::LooksNext { agent: whose, object, .. } => {
+            let who = agent(whose);
+            let what = names.entity(Entity::Object(object));
+            pick([
+                format!(
+                    "The video stops while the {who} is on its way to the {what}. In which room will it look \
+                     first?"
+                ),
+                format!("When the video ends, the {who} looks for the {what}. Where does it look first?"),
+                format!("Which room is the {who} going to, at the end of the video, to find the {what}?"),
+            ])
+        }
+        Query::Without { idle, judged } => {
             let who = agent(idle);
             let whom = agent(idle.other());
+            let goal = aim(judged, names);
             pick([
-                format!("How would the {whom} have fared in what it wants had the {who} done nothing?"),
+                format!("The {whom} wants {goal}. Had the {who} done nothing, would it have succeeded?"),
                 format!(
-                    "Suppose that the {who} had not moved at all. What would that have meant for the {whom}?"
+                    "Suppose that the {who} had not moved at all. What would that have meant for the {whom}, \
+                     which wants {goal}?"
                 ),
-                format!("Had the {who} stood still throughout, how would the {whom} have fared?"),
+                format!(
+                    "The {whom} wants {goal}. Had the {who} stood still throughout, how would it have fared?"
+                ),
             ])
         }
         Query::Ahead { entity, after, .. } => {
@@ -171,6 +225,16 @@ pub(crate) fn question(query: &Query, phrasing: usize, names: &Names) -> String 
             "Two videos begin alike. In one of them the agents work together. Which?".into(),
             "Which video shows two agents with one common goal?".into(),
         ]),
+    }
+}
+
+/// A goal of being on a landmark, after "wants".
+fn aim(goal: Goal, names: &Names) -> String {
+    let Some(landmark) = goal.landmark() else { return String::new() };
+    let place = names.landmark_and_place(landmark);
+    match goal.subject() {
+        Entity::Agent(_) => format!("to be on the {place}"),
+        subject @ Entity::Object(_) => format!("the {} on the {place}", names.entity(subject)),
     }
 }
 
@@ -202,6 +266,8 @@ pub(crate) fn option(query: &Query, value: &str, names: &Names) -> String {
         | Query::RoomAt { .. }
         | Query::EntersFirst { .. }
         | Query::Believes { .. }
+        | Query::Expects { .. }
+        | Query::LooksNext { .. }
         | Query::Ahead { .. } => landmark.map_or_else(String::new, |it| format!("the {} room", corner(it))),
         Query::Stronger | Query::FirstTouch { .. } | Query::Carrier { .. } => match (value, agent) {
             ("equal", _) => "both are equally strong".into(),
@@ -213,13 +279,13 @@ pub(crate) fn option(query: &Query, value: &str, names: &Names) -> String {
             (_, Some(agent)) => agent_name(agent),
             _ => String::new(),
         },
-        Query::Seen { .. } => value.to_owned(),
+        Query::Seen { .. } | Query::IsRight { .. } => value.to_owned(),
         Query::Without { idle, .. } => {
             let whom = agent_name(idle.other());
             match value {
-                "better" => format!("{whom} would have been more successful, or successful sooner"),
-                "worse" => format!("{whom} would have been less successful, or successful later"),
-                _ => format!("it would have made no difference to {whom}"),
+                "better" => format!("{whom} would have succeeded, as it does not in the video"),
+                "worse" => format!("{whom} would have failed, as it does not in the video"),
+                _ => format!("{whom} would have succeeded just as soon as in the video"),
             }
         }
         Query::PairHelp | Query::PairHinder | Query::PairTogether => {

@@ -2,8 +2,8 @@
 
 use phase_evidence::Track;
 use phase_model::{
-    AgentId, Entity, Judgement, LandmarkId, ObjectId, RelationProbabilities, RoleProbabilities, Scene, State,
-    Vec2, arena::LANDMARKS, words::Names,
+    AgentId, Entity, EventKind, Judgement, LandmarkId, ObjectId, RelationProbabilities, RoleProbabilities,
+    Scene, State, Vec2, arena::LANDMARKS, words::Names,
 };
 use phase_questions::{
     Answer, BUDGETS, Choice, Control, Facts, FrameBudget, NONE, Query, Question, Watched, accepted,
@@ -30,12 +30,13 @@ fn scene(kind: &str, alpha: i8, landmark: usize) -> Scene {
         r#"{{"layout": {{"base": 0}}, "agents": [{}, {}], "objects": [{{"size_level": 1, "start": {{"x": 12, "y": 5}}}}],
             "event": "{kind}"}}"#,
         agent(alpha, 8.0, &first),
-        agent(0, 20.0, &goal),
+        agent(0, 24.0, &goal),
     ))
     .expect("a scene")
 }
 
-/// Agent 0 and object 0 go straight from the bottom left to a landmark in 40 steps.
+/// Agent 0 and object 0 go straight from the bottom left to a landmark in 40 steps. An agent that is not
+/// independent is there, too, in the second half.
 fn track(scene: &Scene, landmark: usize) -> Track {
     let start = scene.initial_state();
     let to = LANDMARKS[landmark];
@@ -44,6 +45,10 @@ fn track(scene: &Scene, landmark: usize) -> Track {
         for entity in [Entity::Agent(AgentId::ZERO), Entity::Object(ObjectId::ZERO)] {
             let body = &mut state.bodies[entity];
             body.position += f32::from(step) / 40.0 * (to - body.position);
+        }
+        if step > 20 && scene.kind != EventKind::Independent {
+            let object = state.position(Entity::Object(ObjectId::ZERO));
+            state.bodies[Entity::Agent(AgentId::ONE)].position = object;
         }
         state
     });
@@ -117,6 +122,7 @@ fn judgements_choose_options() {
     let values = |all: &[&str]| all.iter().map(|it| (*it).to_owned()).collect::<Vec<_>>();
     let judged = |helps: [f64; 2], friendly: f64| Watched {
         track: facts(0, "helping", 1).track,
+        stills: facts(0, "helping", 1).track,
         judgement: Some(Judgement {
             relation: RelationProbabilities {
                 friendly,
@@ -172,7 +178,8 @@ fn the_least_number_of_frames_is_that_from_which_all_greater_ones_suffice() {
             neutral: if knows { relation("neutral") } else { 0.1 },
         };
         let judgement = Some(Judgement { relation, ..Judgement::default() });
-        Some(Watched { track: facts(0, "helping", 1).track, judgement })
+        let track = facts(0, "helping", 1).track;
+        Some(Watched { stills: track.clone(), track, judgement })
     };
     let needed = |knowing: &[FrameBudget]| frames_needed(question, |_, budget| watch(knowing, budget));
     assert_eq!(needed(&BUDGETS), Some(FrameBudget::Frames(4)));
@@ -279,6 +286,8 @@ fn scores_count_types_frames_and_people() {
         question("r1", Query::Relation, 0),
         question("r2", Query::Relation, 1),
         question("s1", Query::Stronger, 1),
+        question("b1", Query::IsRight { agent: AgentId::ZERO, object: ObjectId::ZERO, step: 9 }, 0),
+        question("b2", Query::IsRight { agent: AgentId::ZERO, object: ObjectId::ZERO, step: 9 }, 1),
     ];
     let answer = |id: &str, option: Option<usize>, control: Control| Answer {
         id: id.into(),
@@ -292,20 +301,24 @@ fn scores_count_types_frames_and_people() {
         answer("s1", None, Control::Video),
         answer("s1", Some(1), Control::Reversed),
         answer("s1", Some(2), Control::FreeForm),
+        answer("b1", Some(0), Control::Video),
+        answer("b2", Some(0), Control::Video),
     ];
     let score = score(&all, &answers);
     let row = |control: &str, group: &str| {
         let row = score.rows.iter().find(|row| row.control == control && row.group == group);
         row.map(|row| (row.accuracy.right, row.accuracy.of))
     };
-    assert_eq!(row("video", "all"), Some((2, 3)));
+    assert_eq!(row("video", "all"), Some((3, 5)));
     assert_eq!(row("video", "relation"), Some((2, 2)));
-    assert_eq!(row("video", "frames 8"), Some((2, 3)));
+    assert_eq!(row("video", "frames 8"), Some((3, 5)));
     assert_eq!(row("reversed", "stronger"), Some((1, 1)));
     let free = score.rows.iter().find(|row| row.control == "free-form").expect("a row");
     assert_eq!((free.accuracy.right, free.accuracy.chance), (0, 1.0 / 3.0), "one of three values");
     assert_eq!(score.unreadable, 1);
     assert_eq!(score.sets.map(|sets| (sets.right, sets.of)), Some((1, 1)));
+    let pairs = score.belief_pairs.map(|pairs| (pairs.right, pairs.of, pairs.chance));
+    assert_eq!(pairs, Some((0, 1, 0.25)), "one of two is half a pair");
     let entropy = core::f64::consts::LN_2;
     assert!(score.cross_entropy.is_some_and(|it| (it - entropy).abs() < 1e-12));
     assert!(score.human_entropy.is_some_and(|it| (it - entropy).abs() < 1e-12));

@@ -1,8 +1,15 @@
 //! A benchmark of questions about a few short events and pairs, its forms, and the score of answers.
 
-use crate::support::{fail, refuse, succeed, tree};
+use crate::support::{fail, phase, refuse, succeed, tree};
 use serde_json::{Value, json};
-use std::{collections::BTreeMap, fs, path::Path};
+use std::{
+    collections::BTreeMap,
+    fs,
+    path::Path,
+    process::Stdio,
+    thread::sleep,
+    time::{Duration, SystemTime},
+};
 
 const EFFORT: [&str; 4] = ["--simulations", "40", "--particles", "5"];
 
@@ -32,7 +39,7 @@ fn questions_are_asked_and_answers_scored() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path();
     datasets(path);
-    let ask = ["questions", "twelve", "pairs", "--size", "64", "--answers", "cue,guess", "--out"];
+    let ask = ["questions", "twelve", "pairs", "--size", "64", "--answers", "cue,guess,rules,still", "--out"];
     succeed(path, &[&ask[..], &["asked"]].concat());
     succeed(path, &[&ask[..], &["again", "--jobs", "1"]].concat());
     assert!(tree(&path.join("asked")) == tree(&path.join("again")), "the same events give the same bytes");
@@ -113,8 +120,61 @@ fn questions_are_asked_and_answers_scored() {
     let guessed = succeed(path, &["score", "asked/answers/guess.jsonl", "--questions", "asked", "--json"]);
     let guessed: Value = serde_json::from_str(&guessed).expect("JSON");
     assert_eq!(guessed["answers"].as_u64(), Some(2 * questions.len() as u64));
+    judged(path, &questions);
     refused(path, &questions);
     forms(path, questions.len());
+    killed(path, &[&ask[..], &["killed", "--jobs", "1"]].concat());
+    assert!(
+        tree(&path.join("asked")) == tree(&path.join("killed")),
+        "a killed run goes on to the same bytes"
+    );
+}
+
+/// Methods answer the types of questions that they judge, and no others.
+fn judged(path: &Path, questions: &[Value]) {
+    let types = |method: &str| -> Vec<Value> {
+        let answered = lines(&path.join(format!("asked/answers/{method}.jsonl")));
+        let of = |answer: &Value| questions.iter().find(|it| it["id"] == answer["id"]);
+        answered.iter().filter_map(of).map(|question| question["query"]["type"].clone()).collect()
+    };
+    let (cue, rules, still) = (types("cue"), types("rules"), types("still"));
+    for physical in ["end-room", "seen"] {
+        assert!(rules.contains(&json!(physical)) && !cue.contains(&json!(physical)), "{physical}");
+    }
+    assert!(rules.iter().all(|name| !cue.contains(name)));
+    assert!(still.iter().all(|name| name == "ahead"), "{still:?}");
+}
+
+/// A run that is killed twice, each time when it has looked into more events, keeps what it made before.
+fn killed(path: &Path, arguments: &[&str]) {
+    let kept = || -> BTreeMap<String, SystemTime> {
+        let Ok(files) = fs::read_dir(path.join("killed/.cache")) else { return BTreeMap::new() };
+        let looked_into = |name: &String| name.starts_with("inside-") && name.ends_with(".bin");
+        let named = files.flatten().map(|file| (file.file_name().to_string_lossy().into_owned(), file));
+        let about = named.filter(|(name, _)| looked_into(name)).map(|(name, file)| {
+            (name, file.metadata().and_then(|it| it.modified()).expect("a time of change"))
+        });
+        about.collect()
+    };
+    let until = |count: usize| {
+        let mut child =
+            phase(path).args(arguments).stderr(Stdio::null()).spawn().expect("the program starts");
+        while kept().len() < count {
+            assert!(child.try_wait().expect("its state").is_none(), "it ended before it was killed");
+            sleep(Duration::from_millis(2));
+        }
+        child.kill().expect("killed");
+        child.wait().expect("it ends");
+        kept()
+    };
+    let first = until(2);
+    let second = until(first.len() + 2);
+    assert!(first.iter().all(|(name, time)| second.get(name) == Some(time)), "{first:?} {second:?}");
+    assert!(!path.join("killed/questions.json").exists());
+    let other = fail(path, &[arguments, &["--seed", "9"]].concat());
+    assert!(other.contains("an unfinished run of another kind"), "{other}");
+    succeed(path, arguments);
+    assert!(!path.join("killed/.cache").exists());
 }
 
 /// Answers that are refused, each in one sentence.

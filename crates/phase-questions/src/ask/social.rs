@@ -1,6 +1,6 @@
 //! Questions about relation, kind, roles, goals and strengths.
 
-use super::{Asker, texts};
+use super::{Asker, shows_relation, texts};
 use crate::query::{Query, agent_value};
 use phase_evidence::GoalOutcome;
 use phase_model::{AgentId, Attitude, Entity, EventKind, Goal, LandmarkId, Sign, arena::LANDMARKS};
@@ -42,12 +42,41 @@ impl Asker<'_> {
         let labels = json!({ "goals": scene.goals(), "alphas": scene.attitudes(), "kind": scene.kind,
             "rule": "goals and attitudes of the scene; the event passed the test that it shows its label",
         });
+        if shows_relation(scene, &self.facts.track) {
+            self.relation(&stratum, &labels);
+        }
+        for agent in AgentId::ALL {
+            let goal = scene.agents[agent].goal;
+            if scene.agents[agent].attitude == Attitude::Neutral && goal.sign() == Sign::Positive {
+                self.goal(agent, goal, &labels);
+            }
+        }
+        let strengths = scene.agents.map(|agent| agent.strength);
+        let stronger = match strengths[0].max_force().total_cmp(&strengths[1].max_force()) {
+            core::cmp::Ordering::Greater => "0",
+            core::cmp::Ordering::Less => "1",
+            core::cmp::Ordering::Equal => "equal",
+        };
+        let sizes = scene.agents.map(|agent| agent.size);
+        let stratum = format!("{:?}", sizes[0].radius().total_cmp(&sizes[1].radius()));
+        let forces = strengths.map(|strength| strength.max_force());
+        // The strength has to show: a viewer compares speeds.
+        if Query::Stronger.seen(&self.facts.track).as_deref() == Some(stronger) {
+            let proof =
+                json!({ "max_forces_newton": forces, "rule": "the scene; the stronger one moves faster" });
+            self.ask(Query::Stronger, texts(["0", "1", "equal"]), stronger.to_owned(), stratum, proof);
+        }
+    }
+
+    /// Relation, kind and roles of an event in which they are seen.
+    fn relation(&mut self, stratum: &str, labels: &Value) {
+        let scene = &self.facts.scene;
         let relation = scene.relation().name().to_owned();
         self.ask(
             Query::Relation,
             texts(["friendly", "adversarial", "neutral"]),
             relation,
-            stratum.clone(),
+            stratum.to_owned(),
             labels.clone(),
         );
         if let (Some(ratings), Some(draft)) = (self.facts.ratings, self.drafts.last_mut()) {
@@ -81,27 +110,6 @@ impl Asker<'_> {
                 labels.clone(),
             );
         }
-        for agent in AgentId::ALL {
-            let goal = scene.agents[agent].goal;
-            if attitudes[agent] == Attitude::Neutral && goal.sign() == Sign::Positive {
-                self.goal(agent, goal, &labels);
-            }
-        }
-        let strengths = scene.agents.map(|agent| agent.strength);
-        let stronger = match strengths[0].max_force().total_cmp(&strengths[1].max_force()) {
-            core::cmp::Ordering::Greater => "0",
-            core::cmp::Ordering::Less => "1",
-            core::cmp::Ordering::Equal => "equal",
-        };
-        let sizes = scene.agents.map(|agent| agent.size);
-        let stratum = format!("{:?}", sizes[0].radius().total_cmp(&sizes[1].radius()));
-        let forces = strengths.map(|strength| strength.max_force());
-        // The strength has to show: a viewer compares speeds.
-        if Query::Stronger.seen(&self.facts.track).as_deref() == Some(stronger) {
-            let proof =
-                json!({ "max_forces_newton": forces, "rule": "the scene; the stronger one moves faster" });
-            self.ask(Query::Stronger, texts(["0", "1", "equal"]), stronger.to_owned(), stratum, proof);
-        }
     }
 
     /// The landmark of a goal, among those at which its subject is not already.
@@ -131,42 +139,8 @@ impl Asker<'_> {
 #[cfg(test)]
 mod tests {
     use super::distinct_kinds;
-    use crate::{Facts, Query, ask::about_event};
-    use phase_evidence::Track;
-    use phase_model::{AgentId, Entity, EventKind, ObjectId, Scene};
+    use phase_model::EventKind;
     use std::collections::BTreeSet;
-
-    /// Agent 0 helps agent 1, and an agent is at the object from the start.
-    fn at_the_object(first: AgentId) -> Facts {
-        let agent = |alpha: i8, x: f32| {
-            format!(
-                r#"{{"size_level": 1, "strength_level": 1, "alpha": {alpha}, "start": {{"x": {x}, "y": 8, "angle": 0}},
-                    "goal": {{"kind": "object_on_landmark", "object": 0, "landmark": 2, "sign": 1}}}}"#
-            )
-        };
-        let scene = Scene::from_json(&format!(
-            r#"{{"layout": {{"base": 0}}, "agents": [{}, {}], "event": "helping",
-                "objects": [{{"size_level": 1, "start": {{"x": 12, "y": 5}}}}]}}"#,
-            agent(1, 6.0),
-            agent(0, 24.0),
-        ))
-        .expect("a scene");
-        let mut state = scene.initial_state();
-        state.bodies[Entity::Agent(first)].position = state.bodies[Entity::Object(ObjectId::ZERO)].position;
-        let track = Track { physics: scene.physics(), states: vec![state; 41] };
-        Facts { id: "event".into(), set: None, scene, track, inside: None, ratings: None }
-    }
-
-    /// Helper and helped want the same; a viewer tells them apart by who was at the object first.
-    #[test]
-    fn help_is_asked_about_where_the_helped_one_begins() {
-        let roles = |first| -> Vec<String> {
-            let drafts = about_event(&at_the_object(first)).into_iter();
-            drafts.filter(|it| it.query == Query::Role).map(|it| it.value).collect()
-        };
-        assert_eq!(roles(AgentId::ONE), ["helps-0"]);
-        assert!(roles(AgentId::ZERO).is_empty());
-    }
 
     /// No two kinds that fit alike are offered together, and each of two alike is offered with every other
     /// kind.

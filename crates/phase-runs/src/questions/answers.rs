@@ -1,19 +1,24 @@
 //! Answers of the methods of the benchmark, and guesses without motion.
 
-use super::{GUESS, guess::guesses, line};
+use super::{GUESS, RULES, guess::guesses, line};
 use crate::{error::RunError, laboratory::create};
 use core::ops::ControlFlow;
-use phase_event::{ObservedEvent, Recogniser};
+use phase_event::{Forecaster, ObservedEvent, ProgressCallback, Recogniser};
 use phase_evidence::Track;
 use phase_files::atomic;
 use phase_model::{
     Judgement,
     random::{Purpose, stream},
 };
-use phase_questions::{BUDGETS, Control, Facts, FrameBudget, Question, Watched, reordered, sampled};
+use phase_questions::{
+    BUDGETS, Control, Facts, FrameBudget, Query, Question, Watched, reordered, sampled, stills,
+};
 use rand::{RngExt, seq::SliceRandom};
-use serde_json::{Value, json};
-use std::{collections::BTreeMap, path::Path};
+use serde_json::json;
+use std::{
+    collections::{BTreeMap, BTreeSet},
+    path::Path,
+};
 
 /// Folder of the answers.
 pub(super) const FOLDER: &str = "answers";
@@ -24,6 +29,18 @@ pub(super) type Judged = Vec<Option<Judgement>>;
 /// Events as somebody sees them, and the judgements of a method about them.
 pub(super) struct Watcher<'a> {
     judged: BTreeMap<(&'a str, Option<usize>), (&'a Facts, Judged)>,
+}
+
+/// Every event that questions show, with the last step that is shown.
+pub(super) fn all_shown<'a>(
+    facts: &BTreeMap<&str, &'a Facts>,
+    all: &[Question],
+) -> Vec<(&'a Facts, Option<usize>)> {
+    let shown: BTreeSet<(&str, Option<usize>)> = all
+        .iter()
+        .flat_map(|question| question.events.iter().map(|event| (event.as_str(), question.until)))
+        .collect();
+    shown.into_iter().filter_map(|(event, until)| Some((*facts.get(event)?, until))).collect()
 }
 
 /// The motion that is shown, up to a step.
@@ -70,15 +87,20 @@ pub(super) fn judge(
             judged.push(None);
             continue;
         };
-        let rows = track.states.iter().map(|state| state.bodies).collect();
-        let observed = ObservedEvent::in_scene(&facts.scene, rows)
-            .map_err(|error| RunError::Usage(format!("event {}: {error}", facts.id)))?;
+        let observed = observed(facts, &track)?;
         let answer = method.judge(&observed, seed, tick);
         let answer = answer.map_err(|source| RunError::Method { id: facts.id.clone(), source })?;
         let Some((judgement, _)) = answer else { return Ok(None) };
         judged.push(Some(judgement));
     }
     Ok(Some(judged))
+}
+
+/// An event of which this much has been observed.
+fn observed(facts: &Facts, track: &Track) -> Result<ObservedEvent, RunError> {
+    let rows = track.states.iter().map(|state| state.bodies).collect();
+    ObservedEvent::in_scene(&facts.scene, rows)
+        .map_err(|error| RunError::Usage(format!("event {}: {error}", facts.id)))
 }
 
 impl<'a> Watcher<'a> {
@@ -89,12 +111,20 @@ impl<'a> Watcher<'a> {
         Self { judged: shown.into_iter().zip(judged).map(entry).collect() }
     }
 
+    /// Events that no method has judged.
+    pub(super) fn unjudged(facts: &BTreeMap<&str, &'a Facts>, all: &[Question]) -> Self {
+        let shown = all_shown(facts, all);
+        let judged = vec![Judged::new(); shown.len()];
+        Self::new(shown, judged)
+    }
+
     /// An event in a number of frames.
     pub(super) fn watch(&self, event: &str, until: Option<usize>, budget: FrameBudget) -> Option<Watched> {
         let (facts, judged) = self.judged.get(&(event, until))?;
         let place = BUDGETS.iter().position(|it| *it == budget)?;
-        let track = sampled(&shown(facts, until), budget);
-        Some(Watched { track, judgement: judged.get(place).cloned().flatten() })
+        let shown = shown(facts, until);
+        let judgement = judged.get(place).cloned().flatten();
+        Some(Watched { track: sampled(&shown, budget), stills: stills(&shown, budget), judgement })
     }
 
     /// An event in frames of another order.
@@ -105,7 +135,8 @@ impl<'a> Watcher<'a> {
             Control::Shuffled => (shuffled(&track, seed), BUDGETS.len()),
             _ => (reversed(&track), BUDGETS.len() + 1),
         };
-        Some(Watched { track, judgement: judged.get(place).cloned().flatten() })
+        let judgement = judged.get(place).cloned().flatten();
+        Some(Watched { stills: track.clone(), track, judgement })
     }
 
     /// The option that is chosen under a control, if anything speaks for one.
@@ -131,29 +162,73 @@ fn answer(question: &Question, control: Control, option: usize) -> Result<String
     line(&json!({ "id": question.id, "control": control.name(), "answer": letter }))
 }
 
-/// Writes the answers of a method. Where nothing speaks for an option, one is chosen at random. Questions
-/// about what happens are answered by their definition, whatever the method.
+/// Writes the answers of a method to the types of questions of which it judges any: [`RULES`] those about
+/// what happens and what is seen and believed, others those about goals and relations. Where nothing speaks
+/// for an option, one is chosen at random. The result is the number of these.
 pub(super) fn write(
     out: &Path,
     method: &str,
     all: &[Question],
     watcher: &Watcher<'_>,
     seed: u64,
-) -> Result<Value, RunError> {
+) -> Result<usize, RunError> {
     let mut lines = String::new();
     let mut open = 0;
+    let mut judged = BTreeSet::new();
     for control in [Control::Video, Control::Shuffled, Control::Reversed] {
-        for question in all {
-            if control != Control::Video && watcher.is_for_video_alone() {
-                continue;
+        if control != Control::Video && method != RULES && watcher.is_for_video_alone() {
+            continue;
+        }
+        let asked = all.iter().filter(|question| question.query.is_physical() == (method == RULES));
+        let choices: Vec<_> =
+            asked.map(|question| (question, watcher.choice(question, control, seed))).collect();
+        if control == Control::Video {
+            judged = choices.iter().filter(|it| it.1.is_some()).map(|it| it.0.query.type_name()).collect();
+        }
+        for (question, choice) in choices {
+            if judged.contains(question.query.type_name()) {
+                open += usize::from(choice.is_none());
+                lines += &answer(question, control, choice.unwrap_or_else(|| by_chance(question, seed)))?;
             }
-            let choice = watcher.choice(question, control, seed);
-            open += usize::from(choice.is_none());
-            lines += &answer(question, control, choice.unwrap_or_else(|| by_chance(question, seed)))?;
         }
     }
     write_lines(out, method, &lines)?;
-    Ok(json!({ "method": method, "left_to_chance": open }))
+    Ok(open)
+}
+
+/// The room in which a method sees the entity of a question about the future, as one of its options; the
+/// outer `None` means that it was cancelled.
+pub(super) fn forecast(
+    method: &dyn Forecaster,
+    facts: &Facts,
+    question: &Question,
+    seed: u64,
+    tick: ProgressCallback<'_>,
+) -> Result<Option<Option<usize>>, RunError> {
+    let Query::Ahead { entity, after, .. } = question.query else { return Ok(Some(None)) };
+    let observed = observed(facts, &shown(facts, question.until))?;
+    let answer = method.forecast(&observed, after, seed, tick);
+    let answer = answer.map_err(|source| RunError::Method { id: facts.id.clone(), source })?;
+    let Some((prediction, _)) = answer else { return Ok(None) };
+    let place = prediction.forecast.get(entity.index()).and_then(|path| path.last());
+    let room = place.map(|&place| phase_model::layout::room_of(place).to_string());
+    Ok(Some(question.options.iter().position(|option| Some(&option.value) == room.as_ref())))
+}
+
+/// Writes answers to questions about the future, and returns how many were left to chance.
+pub(super) fn write_forecasts(
+    out: &Path,
+    method: &str,
+    choices: &[(&Question, Option<usize>)],
+    seed: u64,
+) -> Result<usize, RunError> {
+    let mut lines = String::new();
+    for (question, choice) in choices {
+        let option = choice.unwrap_or_else(|| by_chance(question, seed));
+        lines += &answer(question, Control::Video, option)?;
+    }
+    write_lines(out, method, &lines)?;
+    Ok(choices.iter().filter(|(_, choice)| choice.is_none()).count())
 }
 
 impl Watcher<'_> {
@@ -167,7 +242,7 @@ pub(super) fn write_guesses(
     out: &Path,
     all: &[Question],
     facts: &BTreeMap<&str, &Facts>,
-) -> Result<Value, RunError> {
+) -> Result<usize, RunError> {
     let mut lines = String::new();
     for control in [Control::NoVideo, Control::FirstFrame] {
         for (question, option) in all.iter().zip(guesses(all, facts, control)) {
@@ -175,17 +250,17 @@ pub(super) fn write_guesses(
         }
     }
     write_lines(out, GUESS, &lines)?;
-    Ok(json!({ "method": GUESS, "left_to_chance": 0 }))
+    Ok(0)
 }
 
 /// Writes random answers.
-pub(super) fn write_chance(out: &Path, all: &[Question], seed: u64) -> Result<Value, RunError> {
+pub(super) fn write_chance(out: &Path, all: &[Question], seed: u64) -> Result<usize, RunError> {
     let mut lines = String::new();
     for question in all {
         lines += &answer(question, Control::Video, by_chance(question, seed))?;
     }
     write_lines(out, "chance", &lines)?;
-    Ok(json!({ "method": "chance", "left_to_chance": all.len() }))
+    Ok(all.len())
 }
 
 fn write_lines(out: &Path, name: &str, lines: &str) -> Result<(), RunError> {

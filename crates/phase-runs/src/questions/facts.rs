@@ -1,5 +1,6 @@
 //! Everything that is known of events: what they hold, and what is simulated for questions about them.
 
+use super::kept::Kept;
 use crate::{
     engine,
     error::RunError,
@@ -14,7 +15,9 @@ use phase_dataset::{
 use phase_event::{Recording, SimulationRecord};
 use phase_evidence::Track;
 use phase_model::{AgentId, Attitude, State};
-use phase_questions::{Alternative, Facts, Inside, SimulatedFutures, believed_rooms, idle_of};
+use phase_questions::{
+    Alternative, Facts, Inside, SimulatedFutures, believed_rooms, idle_of, is_about_beliefs,
+};
 use phase_sim::{Simulation, SimulationSettings};
 use std::{
     collections::{BTreeMap, BTreeSet},
@@ -68,6 +71,7 @@ pub(super) fn of_unit(
     source: &EventInput,
     unit: &Unit,
     ratings: &BTreeMap<String, [usize; 3]>,
+    kept: &Kept,
 ) -> Result<Option<Vec<Facts>>, RunError> {
     let mut known: Vec<(AgentId, phase_model::Scene, Track)> = Vec::new();
     let mut all = Vec::with_capacity(unit.events.len());
@@ -82,9 +86,15 @@ pub(super) fn of_unit(
             ratings: ratings.get(&recording.id).copied(),
         };
         if let Some(simulation) = &recording.simulation {
-            let settings = settings(path, &recording, simulation)?;
-            let Some(inside) = inside(&facts, simulation, &settings, &mut known)? else { return Ok(None) };
-            facts.inside = Some(inside);
+            let (seed, states) = (simulation.event.seed, Inside::states_of(&simulation.event));
+            facts.inside = kept.inside(&facts.id, seed, &facts.track.physics, states);
+            if facts.inside.is_none() {
+                let settings = settings(path, &recording, simulation)?;
+                let inside = inside(&facts, simulation, &settings, &mut known)?;
+                let Some(inside) = inside else { return Ok(None) };
+                kept.keep_inside(&facts.id, seed, &inside)?;
+                facts.inside = Some(inside);
+            }
         }
         all.push(facts);
     }
@@ -111,6 +121,11 @@ fn inside(
     let objects = event.scene.objects.len();
     let beliefs =
         AgentId::ALL.map(|agent| believed_rooms(&phase_sim::beliefs(event, agent, &settings.minds), objects));
+    if is_about_beliefs(&event.scene) {
+        // Nothing else is asked about these.
+        let states = Inside::states_of(event);
+        return Ok(Some(Inside { states, beliefs, without: None, futures: None }));
+    }
     let idle = idle_of(facts);
     // What an idle agent wants makes no difference.
     let mut scene = event.scene.clone();

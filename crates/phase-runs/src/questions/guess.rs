@@ -56,9 +56,11 @@ fn named(query: &Query) -> (Option<AgentId>, Option<Entity>, usize) {
         Query::RoomAt { entity, step } | Query::Ahead { entity, step, .. } => (None, Some(entity), step),
         Query::FirstTouch { object } | Query::Carrier { object } => (None, Some(Entity::Object(object)), 0),
         Query::EntersFirst { agent } => (None, Some(Entity::Agent(agent)), 0),
-        Query::Seen { agent, object, step } | Query::Believes { agent, object, step } => {
-            (Some(agent), Some(Entity::Object(object)), step)
-        }
+        Query::Seen { agent, object, step }
+        | Query::Believes { agent, object, step }
+        | Query::Expects { agent, object, step }
+        | Query::IsRight { agent, object, step }
+        | Query::LooksNext { agent, object, step } => (Some(agent), Some(Entity::Object(object)), step),
         Query::Without { idle, .. } => (Some(idle), None, 0),
         _ => (None, None, 0),
     }

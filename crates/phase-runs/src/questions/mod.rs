@@ -5,6 +5,7 @@ mod answers;
 mod facts;
 mod forms;
 mod guess;
+mod kept;
 mod scoring;
 mod videos;
 
@@ -14,7 +15,10 @@ pub use scoring::{Scored, score_file};
 use crate::{
     effort::MindChoice,
     error::RunError,
-    eval::{methods::recogniser, task::event_seed},
+    eval::{
+        methods::{FORECASTERS, forecaster, recogniser, recognisers},
+        task::event_seed,
+    },
     interrupt,
     laboratory::{Opened, clips::source_digest, open, unusable},
     listener::Listener,
@@ -24,6 +28,7 @@ use crate::{
 };
 use answers::Watcher;
 use core::ops::ControlFlow;
+use kept::Kept;
 use phase_dataset::splits::Split;
 use phase_files::{atomic, run::Run};
 use phase_model::{
@@ -48,6 +53,21 @@ pub const QUESTIONS_FILE: &str = "questions.jsonl";
 const FORMAT: &str = "phase-questions/1";
 /// The name of the method that guesses without motion.
 pub const GUESS: &str = "guess";
+/// The name of the method that answers what motion shows by the definitions of the answers, and what agents
+/// have seen and believe by rules.
+pub const RULES: &str = "rules";
+/// The name of random answers.
+const CHANCE: &str = "chance";
+
+/// Names of everything whose answers can be written: methods for goals and relations, forecasters, which
+/// answer what comes next, [`GUESS`] and [`RULES`].
+#[must_use]
+pub fn answerers() -> Vec<&'static str> {
+    let known = recognisers();
+    let forecasters = FORECASTERS.into_iter().filter(|name| !known.contains(name));
+    let forecasters: Vec<&str> = forecasters.collect();
+    known.into_iter().chain(forecasters).filter(|&name| name != CHANCE).chain([GUESS, RULES]).collect()
+}
 
 /// A run that asks questions about events.
 #[derive(Clone, Debug)]
@@ -60,7 +80,7 @@ pub struct QuestionRun {
     pub ratings: Option<PathBuf>,
     /// The method that certifies numbers of frames for questions about relations and goals.
     pub certify: String,
-    /// Methods whose answers are written, too; [`GUESS`] is one.
+    /// Methods whose answers are written, too, of [`answerers`].
     pub answers: Vec<String>,
     /// Most questions of each type.
     pub per_type: Option<usize>,
@@ -93,7 +113,7 @@ impl QuestionRun {
     ///
     /// # Errors
     /// If the events or the folder cannot be used, an event cannot be simulated, a file cannot be written, or
-    /// a stop was requested. An interrupted run begins anew.
+    /// a stop was requested. The same run goes on where it was interrupted.
     pub fn run(&self, listener: &dyn Listener) -> Result<Asked, RunError> {
         let sources = self.events.iter().map(|path| EventInput::open(path, &[], listener));
         let sources: Vec<EventInput> = sources.collect::<Result<_, _>>()?;
@@ -118,7 +138,8 @@ impl QuestionRun {
             }
             Opened::Open(folder) => folder,
         };
-        let facts = self.facts(&sources, listener)?;
+        let kept = Kept::new(&folder);
+        let facts = self.facts(&sources, &kept, listener)?;
         let mut random = stream(self.seed, Purpose::Evaluation, 0);
         let mut all = phase_questions::questions(&facts, &Names::PAPER, self.per_type, &mut random);
         if all.is_empty() {
@@ -128,17 +149,29 @@ impl QuestionRun {
             ));
         }
         let by_id: BTreeMap<&str, &Facts> = facts.iter().map(|it| (it.id.as_str(), it)).collect();
-        let certifying = self.watcher(&self.certify, &by_id, &all, listener)?;
-        for question in &mut all {
-            let until = question.until;
-            question.frames = frames_needed(question, |event, budget| certifying.watch(event, until, budget));
+        let mut certifying = None;
+        let frames = match kept.frames(self.seed).filter(|frames| frames.len() == all.len()) {
+            Some(frames) => frames,
+            None => {
+                let watcher = self.watcher(&self.certify, &by_id, &all, listener)?;
+                let needed = |question: &Question| {
+                    frames_needed(question, |event, budget| watcher.watch(event, question.until, budget))
+                };
+                let frames: Vec<_> = all.iter().map(needed).collect();
+                kept.keep_frames(self.seed, &frames)?;
+                certifying = Some(watcher);
+                frames
+            }
+        };
+        for (question, frames) in all.iter_mut().zip(frames) {
+            question.frames = frames;
         }
         let mut names: BTreeMap<String, Video> = BTreeMap::new();
         for question in &all {
             names.insert(question.video.clone(), (question.events.clone(), question.until));
         }
         if self.side > 0 {
-            self.videos(&names, &sources, listener)?;
+            self.videos(&names, &sources, &kept, listener)?;
         }
         let mut lines = String::new();
         for question in &all {
@@ -150,20 +183,18 @@ impl QuestionRun {
             .to_vec();
         forms::write(&self.out, &all, &by_id, self.side > 0, self.seed)?;
         let mut rows = Vec::new();
-        for method in &self.answers {
-            if method == GUESS {
-                rows.push(answers::write_guesses(&self.out, &all, &by_id)?);
-                continue;
-            }
-            let watcher = if *method == self.certify {
-                None
-            } else {
-                Some(self.watcher(method, &by_id, &all, listener)?)
+        for method in self.answers.iter().map(String::as_str).chain([CHANCE]) {
+            let left = match kept.left_to_chance(method, self.seed) {
+                Some(left) => left,
+                None => {
+                    let watcher = certifying.take_if(|_| method == self.certify);
+                    let left = self.answer(method, watcher, &by_id, &all, listener)?;
+                    kept.keep_left_to_chance(method, self.seed, left)?;
+                    left
+                }
             };
-            let watcher = watcher.as_ref().unwrap_or(&certifying);
-            rows.push(answers::write(&self.out, method, &all, watcher, self.seed)?);
+            rows.push(json!({ "method": method, "left_to_chance": left }));
         }
-        rows.push(answers::write_chance(&self.out, &all, self.seed)?);
         let mut scores = Vec::new();
         for row in &rows {
             let method = row["method"].as_str().unwrap_or_default();
@@ -189,13 +220,70 @@ impl QuestionRun {
         Ok(Asked { types, videos: names.len(), is_new: true })
     }
 
+    /// Writes the answers of a method, and returns how many it left to chance. `watcher` has its judgements,
+    /// if it has been asked before.
+    fn answer(
+        &self,
+        method: &str,
+        watcher: Option<Watcher<'_>>,
+        facts: &BTreeMap<&str, &Facts>,
+        all: &[Question],
+        listener: &dyn Listener,
+    ) -> Result<usize, RunError> {
+        match method {
+            GUESS => answers::write_guesses(&self.out, all, facts),
+            CHANCE => answers::write_chance(&self.out, all, self.seed),
+            RULES => answers::write(&self.out, method, all, &Watcher::unjudged(facts, all), self.seed),
+            _ if !recognisers().contains(&method) => self.forecasts(method, facts, all, listener),
+            _ => {
+                let watcher = match watcher {
+                    Some(watcher) => watcher,
+                    None => self.watcher(method, facts, all, listener)?,
+                };
+                answers::write(&self.out, method, all, &watcher, self.seed)
+            }
+        }
+    }
+
+    /// Writes the answers of a method that knows what comes next.
+    fn forecasts(
+        &self,
+        method: &str,
+        facts: &BTreeMap<&str, &Facts>,
+        all: &[Question],
+        listener: &dyn Listener,
+    ) -> Result<usize, RunError> {
+        let forecaster = forecaster(method, None, &MindChoice::default())?;
+        let asked: Vec<&Question> =
+            all.iter().filter(|question| matches!(question.query, Query::Ahead { .. })).collect();
+        let progress =
+            listener.progress_over(&format!("asking {method} about {} futures", asked.len()), asked.len());
+        let made = make_all(self.threads, asked.len(), |index| {
+            let question = asked[index];
+            let Some(facts) = facts.get(question.events[0].as_str()) else { return Ok(Some(None)) };
+            let seed = event_seed(self.seed, &facts.id);
+            let choice = answers::forecast(forecaster.as_ref(), facts, question, seed, &mut goes_on);
+            progress.steps(1);
+            choice
+        })?;
+        drop(progress);
+        let made = made.ok_or(RunError::Stopped(None))?;
+        let choices: Vec<_> = asked.into_iter().zip(made).collect();
+        answers::write_forecasts(&self.out, method, &choices, self.seed)
+    }
+
     fn ratings_digest(&self) -> Result<Value, RunError> {
         let bytes = self.ratings.as_deref().map(phase_files::json::bytes).transpose()?;
         Ok(json!(bytes.map(|bytes| phase_files::checksum::sha256_hex(&bytes))))
     }
 
     /// Everything that is known of all events.
-    fn facts(&self, sources: &[EventInput], listener: &dyn Listener) -> Result<Vec<Facts>, RunError> {
+    fn facts(
+        &self,
+        sources: &[EventInput],
+        kept: &Kept,
+        listener: &dyn Listener,
+    ) -> Result<Vec<Facts>, RunError> {
         let ratings = match &self.ratings {
             Some(file) => scoring::ratings(file)?,
             None => BTreeMap::new(),
@@ -207,7 +295,7 @@ impl QuestionRun {
             let count: usize = units.iter().map(|unit| unit.events.len()).sum();
             let progress = listener.progress_over(&format!("looking into {}", words::events(count)), count);
             let made = make_all(self.threads, units.len(), |index| {
-                let unit = facts::of_unit(path, source, &units[index], &ratings);
+                let unit = facts::of_unit(path, source, &units[index], &ratings, kept);
                 progress.steps(units[index].events.len());
                 unit
             })?;
@@ -232,21 +320,14 @@ impl QuestionRun {
     ) -> Result<Watcher<'a>, RunError> {
         let recogniser = recogniser(method, None, &MindChoice::default())?;
         let all_frames_only = method != self.certify;
-        let shown: BTreeSet<(&str, Option<usize>)> = all
-            .iter()
-            .flat_map(|question| question.events.iter().map(|event| (event.as_str(), question.until)))
-            .collect();
-        let shown: Vec<(&'a Facts, Option<usize>)> =
-            shown.into_iter().filter_map(|(event, until)| Some((*facts.get(event)?, until))).collect();
+        let shown = answers::all_shown(facts, all);
         let progress =
             listener.progress_over(&format!("asking {method} about {} videos", shown.len()), shown.len());
         let judged = make_all(self.threads, shown.len(), |index| {
             let (facts, until) = shown[index];
             let seed = event_seed(self.seed, &facts.id);
             let judged =
-                answers::judge(recogniser.as_ref(), facts, until, all_frames_only, seed, &mut || {
-                    if interrupt::requested() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
-                });
+                answers::judge(recogniser.as_ref(), facts, until, all_frames_only, seed, &mut goes_on);
             progress.steps(1);
             judged
         })?;
@@ -258,6 +339,7 @@ impl QuestionRun {
         &self,
         names: &BTreeMap<String, Video>,
         sources: &[EventInput],
+        kept: &Kept,
         listener: &dyn Listener,
     ) -> Result<(), RunError> {
         let places: BTreeMap<&str, (usize, usize)> = sources
@@ -279,14 +361,21 @@ impl QuestionRun {
                     let states: Vec<State> = recording.frames().take(frames).collect();
                     Ok(Shown { physics: recording.scene.physics(), states })
                 });
-            let shown: Vec<Shown> = shown.collect::<Result<_, RunError>>()?;
-            videos::write(&self.out, name, &shown, self.side, event_seed(self.seed, name))?;
+            if !kept.has_videos(name, self.seed) {
+                let shown: Vec<Shown> = shown.collect::<Result<_, RunError>>()?;
+                videos::write(&self.out, name, &shown, self.side, event_seed(self.seed, name))?;
+                kept.keep_videos(name, self.seed)?;
+            }
             progress.steps(1);
             Ok(Some(()))
         })?;
         drop(progress);
         made.map(|_| ()).ok_or(RunError::Stopped(None))
     }
+}
+
+fn goes_on() -> ControlFlow<()> {
+    if interrupt::requested() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
 }
 
 /// A value as a line of a JSONL file.

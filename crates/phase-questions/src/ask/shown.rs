@@ -1,0 +1,50 @@
+//! Whether motion shows how two agents relate. The label alone does not tell: a helper that does everything
+//! alone seems to mind its own business.
+
+use phase_evidence::{Track, contact, selection::MIN_VISIBLE_STEPS};
+use phase_model::{AgentId, Attitude, Entity, EventKind, ObjectId, Scene};
+
+/// Least distance by which an agent moves an object for that to be seen (u).
+const MOVED: f32 = 1.0;
+
+/// Whether an agent touches an entity for long enough to be seen, and how far that goes meanwhile (u).
+fn touch(track: &Track, agent: AgentId, entity: Entity) -> (bool, f32) {
+    let steps = contact::steps_touching(track, Entity::Agent(agent), entity);
+    let way = steps.iter().map(|&step| track.distance_in_step(entity, step)).sum();
+    (steps.len() >= MIN_VISIBLE_STEPS, way)
+}
+
+/// Whether a viewer has evidence of the relation that the scene has, in what the agents touch and move:
+///
+/// - who is helped has a hand in what the helper moves, and so have two that want the same;
+/// - a hinderer moves what the other has touched, or meets the other, and so do two that compete;
+/// - independent agents have nothing to do with each other.
+///
+/// A chase is seen as such.
+pub(crate) fn shows_relation(scene: &Scene, track: &Track) -> bool {
+    let meet = touch(track, AgentId::ZERO, Entity::Agent(AgentId::ONE)).0;
+    let shared = |object: ObjectId, mover: AgentId| {
+        let [moving, other] = [mover, mover.other()].map(|agent| touch(track, agent, Entity::Object(object)));
+        moving.0 && moving.1 >= MOVED && other.0
+    };
+    let social = AgentId::ALL.into_iter().find(|&it| scene.agents[it].attitude != Attitude::Neutral);
+    let wanted = |agent: AgentId| match scene.agents[agent].goal.subject() {
+        Entity::Object(object) => Some(object),
+        Entity::Agent(_) => None,
+    };
+    let object = wanted(social.unwrap_or(AgentId::ZERO).other());
+    let moved_by = |agent: AgentId| object.is_some_and(|object| shared(object, agent));
+    match scene.kind {
+        EventKind::Helping => social.is_some_and(moved_by),
+        EventKind::Hindering => social.is_some_and(moved_by) || meet,
+        EventKind::Collaborating => AgentId::ALL.into_iter().all(moved_by),
+        EventKind::Competing => AgentId::ALL.into_iter().any(moved_by) || meet,
+        EventKind::Chasing => true,
+        EventKind::Independent => {
+            let mut objects = ObjectId::ALL.into_iter().take(scene.objects.len());
+            let both =
+                |object| AgentId::ALL.into_iter().all(|agent| touch(track, agent, Entity::Object(object)).0);
+            !meet && !objects.any(both)
+        }
+    }
+}
