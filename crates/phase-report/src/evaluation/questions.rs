@@ -88,7 +88,8 @@ pub fn questions_page(asked: &AskedQuestions) -> String {
     format!(
         "# PHASE-Questions 1.0\n\n\
          <!-- Written by `cargo xtask results` from data/questions.json. -->\n\n\
-         {questions} questions of {kinds} types about {videos} videos of the test events of phase-500 and of phase-pairs, made by \
+         {questions} questions of {kinds} types about {videos} videos of the test events of phase-500, of phase-pairs and of \
+         phase-beliefs, made by \
          [`phase questions`](../how-to/questions.md#phase-questions-10). SHA-256 of `questions.jsonl`: `{sha256}`. \
          Frames were certified by `{certified_by}`.\n\n\
          **No vision-language model was run.** People were not asked about these events.\n\n\
@@ -97,8 +98,8 @@ pub fn questions_page(asked: &AskedQuestions) -> String {
          frame, and answers about events with other bodies. In balanced questions without a hint such a guess falls below \
          chance, because the value that is rarer among those left out is more frequent among those learnt from. †: more than \
          three points above chance.\n\n\
-         Methods of the benchmark judge goals and relations. They answer `stronger`, `seen` and `believes` by a rule from the \
-         motion, and the other questions about what happens by the definition of the right answer, so that these rows say \
-         nothing of a method when the frames are in order.\n"
+         Methods of the benchmark judge goals and relations, or what comes next; –: a method does not judge the type, or was not \
+         asked, and `all` has the types that it judges. `rules` answers what happens by the definition of the right answer, and `stronger`, `seen` and what agents \
+         believe by a rule from the motion: that row is a check of the questions, and of the order of frames.\n"
     )
 }
