@@ -21,8 +21,8 @@ import re
 import sys
 
 from importer import Unusable, answer, ask, content_of, is_reading, load, main_of, save, tell
-from recordings import (STARTS, USUAL_ANGLES, add_angles_option, convert, converted, internal_goal, kind_and_relation,
-                        mirror_angle, mirror_point, mirror_rows, parse_name, steps_from_substeps, swaps)
+from recordings import (STARTS, USUAL_ANGLES, add_angles_option, convert, converted, internal_goal, is_catch,
+                        kind_and_relation, mirror_angle, mirror_point, mirror_rows, parse_name, steps_from_substeps, swaps)
 
 # The largest file that is read (bytes); the published recordings have less than a megabyte each.
 LARGEST_FILE_BYTES = 256 << 20
@@ -54,15 +54,18 @@ def records_of(content, stem):
 
 
 def convert_file(path, angles):
-    """The events of a file; runs in the reading process."""
+    """The events of a file, and how many catch trials it has; runs in the reading process."""
     stem = re.sub(r"\.\w+$", "", re.split(r"[/\\]", path)[-1])
     records = records_of(content_of(path, LARGEST_FILE_BYTES), stem)
-    events = []
+    events, catch = [], 0
     short = re.sub(r"[^A-Za-z0-9]+", "-", stem).strip("-")[:60] or "recording"
     for k, (name, record) in enumerate(records):
+        if is_catch(name):
+            catch += 1
+            continue
         event_id = short if len(records) == 1 else f"{short}-{k:04d}"
         events.append(converted(record, name, event_id, angles, f"record {k}"))
-    return events
+    return {"events": events, "catch": catch}
 
 
 def write(events, out):
@@ -166,11 +169,13 @@ def self_test(out):
 def run(arguments):
     if os.path.realpath(arguments.out) in map(os.path.realpath, arguments.files):
         raise Unusable(f"{arguments.out}: the files to read and to write must be different")
-    events = [event for path in arguments.files for event in ask(__file__, path, arguments.angles)]
+    read = [ask(__file__, path, arguments.angles) for path in arguments.files]
+    events = [event for file in read for event in file["events"]]
+    catch = sum(file["catch"] for file in read)
     if not events:
-        raise Unusable("there are no records in these files")
+        raise Unusable("there are no records but catch trials in these files" if catch else "there are no records in these files")
     write(events, arguments.out)
-    tell(f"{len(events)} events in {arguments.out}")
+    tell(f"{len(events)} events in {arguments.out}" + (f" ({catch} catch trials left out)" if catch else ""))
 
 
 def main():

@@ -38,7 +38,7 @@ import sys
 
 from importer import (Failure, Unusable, answer, ask, column_of, content_of, contents_of, import_numpy, is_reading, main_of,
                       open_regular, read_json, save, save_text, shown, tell)
-from recordings import RELATIONS, add_angles_option, converted, text
+from recordings import RELATIONS, add_angles_option, converted, is_catch, text
 
 # The published file has 100 entries of at most 101 rows and 1.5 MB.
 LARGEST_FILE_BYTES = 64 << 20
@@ -50,7 +50,6 @@ ANSWERS_PER_SHEET = 23
 # The date, time and place in a set, with which the name of a recording begins.
 DISTINCT_CHARACTERS = 23
 # Catch trials of each set by layout, and the only right answer to each.
-CATCH_ENDING = "_mm"
 CATCH_TRIALS = {
     "test": {"4": "adversarial", "12": "friendly", "0": "neutral"},
     "main": {"12.1": "adversarial", "13.2": "friendly", "4": "neutral"},
@@ -91,10 +90,6 @@ def converted_entries(path, angles, which):
         names.setdefault(name, []).append(event_id)
         events.append(event)
     return {"events": events, "names": names, "entries": len(content), "catch": catch}
-
-
-def is_catch(name):
-    return re.sub(r"\.\w{1,5}$", "", name).endswith(CATCH_ENDING)
 
 
 def predictions_of(path):

@@ -55,6 +55,12 @@ ENTITIES = 4
 SUBSTEPS = 5
 TURN = 2 * math.pi
 FIFTH = TURN / SUBSTEPS
+# No place (u), speed (u/s) or angle (rad) of a recording is as large.
+LARGEST_NUMBER = 1e4
+# Centres of landmarks are where they are in every recording, to within this (u).
+LANDMARK_TOLERANCE = 1e-3
+# Names of trials that show whether a rater looked, in place of an event.
+CATCH_ENDING = "_mm"
 # Written numbers of trajectories are whole multiples of 1e-5 u, u/s or rad.
 PARTS_OF_UNIT = 1e5
 # A size or strength is the level whose value is this near to it, as a part of the largest value.
@@ -98,7 +104,7 @@ def plain(value):
 
 
 def numbers(values, count, what):
-    """Finite numbers from a list of a known length."""
+    """Numbers, none of them larger than those of recordings, from a list of a known length."""
     values = plain(values)
     if type(values) is not list or len(values) != count:
         raise Unusable(f"{what} must hold {count} values")
@@ -107,6 +113,8 @@ def numbers(values, count, what):
     result = [float(value) for value in values]
     if not all(math.isfinite(value) for value in result):
         raise Unusable(f"{what} must hold finite numbers")
+    if any(abs(value) > LARGEST_NUMBER for value in result):
+        raise Unusable(f"{what} must hold numbers from {-LARGEST_NUMBER:g} to {LARGEST_NUMBER:g}")
     return result
 
 
@@ -164,7 +172,8 @@ FIELDS = {
 }
 NAME = re.compile(
     rf"(?:D?{NUMBER}|D)?{OTHER_FIELDS}" + "".join(list(FIELDS.values())[:5])
-    + OTHER_FIELDS + FIELDS["steps"] + FIELDS["alphas"] + OTHER_FIELDS + r"(?:\.[A-Za-z]\w{0,5})?", re.ASCII)
+    # A further number after the attitudes would be a third one.
+    + OTHER_FIELDS + FIELDS["steps"] + FIELDS["alphas"] + rf"(?!_{NUMBER}(?:[_.]|$))" + OTHER_FIELDS + r"(?:\.[A-Za-z]\w{0,5})?", re.ASCII)
 # Kind, subject, target and sign, as in ['LMO', 0, 2, 1].
 GOAL_PARTS = re.compile(r"(LMA|LMO|TE)\D+?(\d)\D+?(\d)[^\d-]+(-?1)", re.ASCII)
 
@@ -237,6 +246,8 @@ def internal_goal(goal, agents_swapped, objects_swapped):
         return kind, swap_agent(subject), target, sign
     if target >= AGENTS:
         raise Unusable("a goal is to touch an object, which phase-events/1 does not know")
+    if subject == target:
+        raise Unusable("a goal is that an agent touches itself")
     return kind, swap_agent(subject), swap_agent(target), sign
 
 
@@ -458,6 +469,10 @@ def action_name(action):
 
 # Records.
 
+def is_catch(name):
+    return re.sub(r"\.[A-Za-z0-9]{1,5}$", "", name).endswith(CATCH_ENDING)
+
+
 def sizes_of(record):
     """Radii of the entities; the field has either of two names."""
     given = [numbers(record[key], ENTITIES, f"`{key}`")
@@ -517,9 +532,14 @@ def convert(record, name, event_id, angles, published=False):
     # Walls of a recording that is mirrored only here follow from its layout.
     if record.get("wall_segs") is not None and (mirrored or name["flip"] is None):
         event["walls"] = walls_of(record)
-    centres = record.get("landmark_centers")
+    if record.get("landmark_centers") is not None:
+        centres = points(record["landmark_centers"], len(LANDMARKS), "`landmark_centers`")
+        if any(math.dist(found, known) > LANDMARK_TOLERANCE for found, known in zip(centres, LANDMARKS)):
+            raise Unusable("`landmark_centers` has other places than the four of every recording")
+    if len(tracks[0]) - 1 > name["steps"]:
+        raise Unusable(f"its name gives {name['steps']} steps, but `trajectories` has {len(tracks[0]) - 1}")
     event.update({
-        "landmarks": LANDMARKS if centres is None else points(centres, len(LANDMARKS), "`landmark_centers`"),
+        "landmarks": LANDMARKS,
         "agents": agents,
         "objects": [{"radius": RADII[size], "size_level": size} for size in sizes[AGENTS:]],
         "event": kind, "relation": relation,

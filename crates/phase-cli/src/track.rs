@@ -7,7 +7,7 @@ use phase_files::{atomic, told};
 use phase_model::{Flip, Layout, Size};
 use phase_runs::{
     error::{Fault, RunError},
-    track::{TrackRun, Tracked, read_all},
+    track::{TrackRun, Tracked, is_table, read_all},
 };
 use phase_track::{FrameMeaning, Roles, Shape, ShapeTrack, TableOptions};
 use serde_json::json;
@@ -25,9 +25,9 @@ pub struct TrackOptions {
     /// Name of the event [default: the name of the input]
     #[arg(long, value_name = "ID")]
     pub id: Option<String>,
-    /// Pictures a second in folders of PNG pictures, 4 to 240
-    #[arg(long, value_name = "N", default_value_t = 20, value_parser = value_parser!(u32).range(4..=240))]
-    pub frame_rate: u32,
+    /// Pictures a second in folders of PNG pictures, 4 to 240 [default: 20]
+    #[arg(long, value_name = "N", value_parser = value_parser!(u32).range(4..=240))]
+    pub frame_rate: Option<u32>,
     /// Meaning of frames: the motion itself, rows with bodies drawn straight from row to row, or rows each of
     /// which is held until the next [default: what the motion looks like]
     #[arg(long, value_name = "KIND", value_parser = named(MEANINGS, name_of))]
@@ -80,6 +80,11 @@ pub struct TableArguments {
     pub layout: Layout,
 }
 
+/// Pictures a second in folders of pictures, unless given.
+const FRAME_RATE: u32 = 20;
+/// What `--shapes` needs.
+const ONE_FOREIGN: &str = "needs one video that shows no arena with agents";
+
 const MEANINGS: [FrameMeaning; 3] = [FrameMeaning::Substeps, FrameMeaning::Rows, FrameMeaning::Held];
 
 const fn name_of(meaning: FrameMeaning) -> &'static str {
@@ -92,6 +97,9 @@ const fn name_of(meaning: FrameMeaning) -> &'static str {
 
 fn columns(text: &str) -> Result<[String; 5], String> {
     let names: Vec<String> = text.split(',').map(|name| name.trim().to_owned()).collect();
+    if let Some(k) = (1..names.len()).find(|&k| names[..k].contains(&names[k])) {
+        return Err(format!("names the column {:?} twice", names[k]));
+    }
     match <[String; 5]>::try_from(names) {
         Ok(five) => Ok(five),
         Err(mut four) if four.len() == 4 => {
@@ -138,9 +146,7 @@ fn layout(text: &str) -> Result<Layout, String> {
 /// Any [`CliError`].
 pub fn run(arguments: &TrackOptions, context: &Context) -> Result<(), CliError> {
     interrupt::listen();
-    if arguments.id.is_some() && arguments.inputs.len() > 1 {
-        return Err(CliError::Usage("--id: names one event, but there are several inputs".into()));
-    }
+    arguments.check()?;
     let inputs = arguments.inputs.len();
     let runs: Vec<TrackRun> = arguments.inputs.iter().map(|input| arguments.run_of(input)).collect();
     let progress = context.progress("Tracking", inputs, 1);
@@ -161,15 +167,16 @@ pub fn run(arguments: &TrackOptions, context: &Context) -> Result<(), CliError> 
             }
         });
     }
+    let shapes = match (&arguments.shapes, &tracked[..]) {
+        (None, _) => None,
+        (Some(file), [Tracked { shapes: Some(shapes), .. }]) => Some((file, shapes)),
+        (Some(_), _) => return Err(CliError::Usage(format!("--shapes: {ONE_FOREIGN}"))),
+    };
     let events: Vec<_> =
         tracked.iter().map(|it| (it.id.as_str(), &it.observed, Some(&it.tracking))).collect();
     let text = observed_to_json(&events).map_err(RunError::from)?;
     atomic::write(&arguments.out, text.as_bytes()).map_err(CliError::Output)?;
-    if let Some(file) = &arguments.shapes {
-        let [Tracked { shapes: Some(shapes), .. }] = &tracked[..] else {
-            let rule = "--shapes: needs one video that shows no arena with agents";
-            return Err(CliError::Usage(rule.into()));
-        };
+    if let Some((file, shapes)) = shapes {
         atomic::write(file, shapes.table().as_bytes()).map_err(CliError::Output)?;
     }
     let lines: String = tracked.iter().map(line).collect();
@@ -185,23 +192,62 @@ pub fn run(arguments: &TrackOptions, context: &Context) -> Result<(), CliError> 
 }
 
 impl TrackOptions {
+    /// Whether each option says something about one of the inputs.
+    fn check(&self) -> Result<(), CliError> {
+        let refuse = |option: &str, rule: &str| Err(CliError::Usage(format!("{option}: {rule}")));
+        let tables = self.inputs.iter().filter(|input| is_table(input)).count();
+        let (table, usual) = (self.table.options(), TableOptions::default());
+        let of_tables = [
+            ("--columns", table.columns != usual.columns),
+            ("--time-units", table.rate != usual.rate),
+            ("--bodies", table.bodies != usual.bodies),
+            ("--bounds", table.bounds != usual.bounds),
+            ("--y-down", table.y_down != usual.y_down),
+            ("--sizes", table.sizes != usual.sizes),
+            ("--layout", table.layout != usual.layout),
+        ];
+        let of_pictures = [("--frames", self.frames.is_some()), ("--map", self.map.is_some())];
+        let first = |given: &[(&'static str, bool)]| given.iter().find(|it| it.1).map(|it| it.0);
+        if self.id.is_some() && self.inputs.len() > 1 {
+            return refuse("--id", "names one event, but there are several inputs");
+        }
+        if let Some(option) = first(&of_pictures).filter(|_| tables == self.inputs.len()) {
+            return refuse(option, "is about videos and pictures, and all inputs are tables");
+        }
+        if let Some(option) = first(&of_tables).filter(|_| tables == 0) {
+            return refuse(option, "is about tables, and no input is one");
+        }
+        if self.frame_rate.is_some() && !self.inputs.iter().any(|input| input.is_dir()) {
+            return refuse("--frame-rate", "is about folders of pictures, and no input is one");
+        }
+        if self.shapes.is_some() && (self.inputs.len() > 1 || tables > 0) {
+            return refuse("--shapes", ONE_FOREIGN);
+        }
+        Ok(())
+    }
+
     fn run_of(&self, input: &Path) -> TrackRun {
-        let TableArguments { columns, time_units, bodies, bounds, y_down, sizes, layout } = &self.table;
         TrackRun {
             input: input.to_owned(),
             id: self.id.clone(),
-            frame_rate: f64::from(self.frame_rate),
+            frame_rate: f64::from(self.frame_rate.unwrap_or(FRAME_RATE)),
             meaning: self.frames,
             roles: self.map.clone(),
-            table: TableOptions {
-                columns: columns.clone(),
-                rate: *time_units,
-                bodies: bodies.clone(),
-                bounds: *bounds,
-                y_down: *y_down,
-                sizes: sizes.clone(),
-                layout: *layout,
-            },
+            table: self.table.options(),
+        }
+    }
+}
+
+impl TableArguments {
+    fn options(&self) -> TableOptions {
+        TableOptions {
+            columns: self.columns.clone(),
+            rate: self.time_units,
+            bodies: self.bodies.clone(),
+            bounds: self.bounds,
+            y_down: self.y_down,
+            sizes: self.sizes.clone(),
+            layout: self.layout,
         }
     }
 }

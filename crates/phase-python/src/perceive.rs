@@ -3,6 +3,7 @@
 use crate::{error::raise, observed::Observed};
 use core::ops::ControlFlow;
 use phase_eval::goals::Answer;
+use phase_model::json::parse_text;
 use phase_runs::{
     effort::MindChoice,
     eval::{compare, methods as named, networks},
@@ -97,7 +98,7 @@ pub(crate) fn compare_results(
     other: &str,
     seed: u64,
 ) -> PyResult<String> {
-    let parsed = |results| serde_json::from_str(results).map_err(|error| error.to_string());
+    let parsed = |results| parse_text(results).map_err(|error| error.to_string());
     let difference = py.detach(|| compare::difference(task, parsed(one)?, parsed(other)?, seed));
     difference.map(|difference| difference.to_string()).map_err(raise)
 }

@@ -2,7 +2,7 @@
 
 use crate::error::raise;
 use phase_eval::goals::canonical;
-use phase_model::{Action, AgentId, Goal, LandmarkId, ObjectId, Scene as ModelScene, Sign};
+use phase_model::{Action, AgentId, Goal, LandmarkId, ObjectId, Scene as ModelScene, Sign, json};
 use phase_runs::gen_dataset::{any_scene, plan};
 use phase_sampler::sample_named;
 use pyo3::prelude::*;
@@ -120,7 +120,7 @@ pub(crate) fn goals_as_json() -> PyResult<String> {
 /// The index of a goal, given as JSON, among [`all_goals`]. `PhaseError` if it is none.
 #[pyfunction]
 pub(crate) fn goal_index(goal: &str) -> PyResult<usize> {
-    let goal: Goal = serde_json::from_str(goal).map_err(|error| raise(format!("goal: {error}")))?;
+    let goal: Goal = json::parse_as(goal).map_err(|error| raise(format!("goal: {error}")))?;
     number_of(goal).ok_or_else(|| raise("goal: an agent cannot touch itself"))
 }
 

@@ -60,6 +60,12 @@ impl Roles {
         if !(AGENT_COUNT..=MAX_ENTITIES).contains(&bodies.len()) {
             return Err(format!("must name two agents and up to two objects, not {} bodies", bodies.len()));
         }
+        // Several bodies may have one colour, but not one number.
+        let is_again = |k: usize| matches!(bodies[k], Role::Number(_)) && bodies[..k].contains(&bodies[k]);
+        if let Some(k) = (1..bodies.len()).find(|&k| is_again(k)) {
+            let twice = text.split(',').nth(k).unwrap_or_default();
+            return Err(format!("gives body {} two roles", twice.trim()));
+        }
         Ok(Self { bodies })
     }
 

@@ -8,6 +8,7 @@ use phase_event::{Missing, ObservedEvent, Tracking};
 use phase_model::{
     AGENT_COUNT, Layout, MAX_ENTITIES, Size, Vec2,
     arena::{self, STEP_SECONDS, STEP_VIDEO_SECONDS},
+    json,
 };
 use serde_json::Value;
 use std::collections::BTreeMap;
@@ -108,8 +109,15 @@ pub fn table(
         let rule = format!("must have two agents and up to two objects, not {} bodies", chosen.len());
         return Err(TrackError::Table(rule));
     }
+    if options.sizes.len() > chosen.len() {
+        let rule = format!("has {} bodies, fewer than the {} sizes", chosen.len(), options.sizes.len());
+        return Err(TrackError::Table(rule));
+    }
     let mut lines = Vec::new();
-    for name in &chosen {
+    for (k, name) in chosen.iter().enumerate() {
+        if chosen[..k].contains(name) {
+            return Err(TrackError::Table(format!("cannot have the body {name:?} in two roles")));
+        }
         let mut track =
             tracks.remove(name).ok_or_else(|| TrackError::Table(format!("has no body {name:?}")))?;
         track.sort_by(|a, b| a.0.total_cmp(&b.0));
@@ -144,7 +152,8 @@ pub fn table(
     let sizes = (0..chosen.len())
         .map(|k| options.sizes.get(k).or(options.sizes.last()).copied().unwrap_or(Size::Medium));
     let sizes: Vec<Size> = sizes.collect();
-    let longest = lines.iter().map(Vec::len).max().unwrap_or(0);
+    let common = |track: &Vec<Line>| track.iter().filter(|line| (start..=end).contains(&line.0)).count();
+    let longest = lines.iter().map(common).max().unwrap_or(0);
     let tracking = Tracking {
         noise: noise(&rows),
         frames: longest as u32,
@@ -164,13 +173,14 @@ fn each_line(
     options: &TableOptions,
     take: &mut dyn FnMut(usize, [Option<String>; 5]) -> Result<(), TrackError>,
 ) -> Result<(), TrackError> {
-    let unreadable = |number: usize, rule: &str| TrackError::Table(format!("line {number}: {rule}"));
+    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     if !["csv", "tsv"].contains(&ending) {
         for (k, line) in bytes.split(|byte| *byte == b'\n').enumerate() {
             if line.trim_ascii().is_empty() {
                 continue;
             }
-            let value: Value = serde_json::from_slice(line).map_err(|_| unreadable(k + 1, "is not JSON"))?;
+            let value =
+                json::parse_line(line, k + 1).map_err(|error| TrackError::Table(error.to_string()))?;
             let member =
                 |path: &String| match path.split('.').try_fold(&value, |value, key| value.get(key))? {
                     Value::String(text) => Some(text.clone()),
@@ -185,12 +195,16 @@ fn each_line(
         }
         return Ok(());
     }
-    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     let delimiter = if ending == "tsv" { b'\t' } else { b',' };
     let mut reader = csv::ReaderBuilder::new().delimiter(delimiter).from_reader(bytes);
     let headers = reader.headers().map_err(|error| TrackError::Table(error.to_string()))?.clone();
-    let place = |name: &String| headers.iter().position(|header| header.trim() == name);
-    let places: [_; 5] = core::array::from_fn(|k| place(&options.columns[k]));
+    let places_of = |name: &String| (0..headers.len()).filter(|&k| headers[k].trim() == name).collect();
+    let found: [Vec<usize>; 5] = core::array::from_fn(|k| places_of(&options.columns[k]));
+    if let Some(twice) = found.iter().position(|places| places.len() > 1) {
+        let name = &options.columns[twice];
+        return Err(TrackError::Table(format!("has {} columns {name:?}", found[twice].len())));
+    }
+    let places = found.map(|places| places.first().copied());
     if let Some(missing) = places[..4].iter().position(Option::is_none) {
         let found: Vec<&str> = headers.iter().collect();
         let name = &options.columns[missing];

@@ -1,6 +1,6 @@
 //! Tables as events.
 
-use phase_model::Vec2;
+use phase_model::{Size, Vec2};
 use phase_track::{TableOptions, TrackError, table};
 
 fn csv(text: &str, options: &TableOptions) -> Result<phase_event::ObservedEvent, TrackError> {
@@ -64,4 +64,33 @@ fn what_is_no_table_is_refused_by_a_sentence() {
     assert!(refused("time,body,x,y\n0,a,8,8\n0.1,a,9,8\n0,b,9,9\n0.1,b,9,9\n").contains("at least 0.25 s"));
     assert!(refused("").contains("has no column"));
     assert!(table(b"{\"x\": 1", "jsonl", &TableOptions::default()).is_err());
+}
+
+#[test]
+fn nothing_in_a_table_is_left_out_without_a_word() {
+    let lines = "0,a,8,8\n1,a,9,8\n0,b,9,9\n1,b,9,9\n";
+    let refused = |text: &str, options: &TableOptions| csv(text, options).expect_err("refused").to_string();
+    let usual = TableOptions::default();
+    let twice = refused("time,body,x,x,y\n0,a,8,9,8\n", &usual);
+    assert!(twice.contains("has 2 columns \"x\""), "{twice}");
+    let sizes = TableOptions { sizes: vec![Size::Small; 3], ..TableOptions::default() };
+    let text = format!("time,body,x,y\n{lines}");
+    assert!(csv(&text, &usual).is_ok());
+    assert!(refused(&text, &sizes).contains("fewer than the 3 sizes"));
+    let bodies = TableOptions { bodies: vec!["a".into(), "a".into()], ..TableOptions::default() };
+    assert!(refused(&text, &bodies).contains("in two roles"));
+    let member = "{\"time\": 0, \"body\": 0, \"x\": 5, \"x\": 25, \"y\": 6}";
+    let again = table(format!("\n{member}").as_bytes(), "jsonl", &usual).expect_err("refused").to_string();
+    assert!(again.contains("has the member `x` twice, again in line 2"), "{again}");
+}
+
+#[test]
+fn frames_are_counted_while_all_bodies_are_there() {
+    let mut text = String::from("time,body,x,y\n");
+    for t in 0..5 {
+        text += &format!("{t},a,8,{}\n{t},b,9,9\n", 8 + t);
+    }
+    text += "1000000,a,8,8\n";
+    let (_, tracking) = table(text.as_bytes(), "csv", &TableOptions::default()).expect("an event");
+    assert_eq!((tracking.frames, tracking.frame_rate), (5, 1.0));
 }

@@ -188,6 +188,10 @@ fn refused(path: &Path, questions: &[Value]) {
     let twice = format!("{{\"id\": \"{id}\", \"answer\": \"A\"}}\n");
     assert!(score(&twice.repeat(2)).contains("line 2: question"));
     assert!(score("not JSON").contains("line 1"));
+    let number = format!("{{\"id\": \"{id}\", \"answer\": 0}}");
+    assert!(score(&number).contains("line 1: field `answer` must be a text, not 0"));
+    let again = format!("{{\"id\": \"{id}\", \"answer\": \"A\", \"answer\": \"B\"}}");
+    assert!(score(&again).contains("has the member `answer` twice"));
     assert!(score("").contains("has no answers"));
     let control = format!("{{\"id\": \"{id}\", \"answer\": \"A\", \"control\": \"sound\"}}");
     assert!(score(&control).contains("control must be one of"));

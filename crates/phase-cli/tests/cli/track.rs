@@ -36,3 +36,27 @@ fn what_is_refused_takes_nothing_away_from_the_others() {
     refuse(folder, &["track", "a.csv", "e/A.csv", "--quiet", "--out", "none.json"]);
     assert!(!folder.join("none.json").exists());
 }
+
+#[test]
+fn options_that_say_nothing_about_an_input_are_refused_before_anything_is_written() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let folder = folder.path();
+    fs::write(folder.join("a.csv"), WALK).expect("written");
+    fs::write(folder.join("b.mp4"), "no video").expect("written");
+    let cases: [(&str, &[&str], &str); 7] = [
+        ("a.csv", &["--map", "1,2"], "--map: is about videos and pictures"),
+        ("a.csv", &["--frames", "rows"], "--frames: is about videos and pictures"),
+        ("a.csv", &["--frame-rate", "30"], "--frame-rate: is about folders of pictures"),
+        ("a.csv", &["--shapes", "shapes.csv"], "--shapes: needs one video"),
+        ("b.mp4", &["--sizes", "1"], "--sizes: is about tables"),
+        ("b.mp4", &["--map", "1,1"], "gives body 1 two roles"),
+        ("a.csv", &["--columns", "time,body,x,x"], "names the column \"x\" twice"),
+    ];
+    for (input, options, rule) in cases {
+        let output = run(folder, &[&["track", input, "--quiet", "--out", "out.json"], options].concat());
+        let told = text(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{options:?}: {told}");
+        assert!(told.contains(rule), "{options:?}: {told}");
+        assert!(!folder.join("out.json").exists(), "{options:?}");
+    }
+}

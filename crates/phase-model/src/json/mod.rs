@@ -8,5 +8,5 @@ mod similar;
 
 pub use error::{FieldError, JsonError};
 pub use field::{Field, finite, shown};
-pub use parse::{check_format, parse, parse_as, parse_text};
+pub use parse::{check_format, parse, parse_as, parse_line, parse_text};
 pub use similar::edit_distance;

@@ -51,6 +51,21 @@ pub fn parse_text(text: &str) -> Result<Value, JsonError> {
     Ok(value)
 }
 
+/// Parses a line of a file of JSON lines; `number` is that of the line, from 1, which errors name.
+///
+/// # Errors
+/// As [`parse`].
+pub fn parse_line(line: &[u8], number: usize) -> Result<Value, JsonError> {
+    parse(line).map_err(|error| match error {
+        JsonError::NotJson { what, .. } => JsonError::NotJson { what, line: number },
+        JsonError::Truncated(_) => JsonError::Truncated(number),
+        JsonError::Twice { member, .. } => JsonError::Twice { member, line: number },
+        JsonError::NotANumber { token, .. } => JsonError::NotANumber { token, line: number },
+        JsonError::NumberTooLarge(_) => JsonError::NumberTooLarge(number),
+        error => error,
+    })
+}
+
 /// Parses a text as JSON of a type that reads itself. For texts whose members are all known to the type, and
 /// for those of which it keeps some as they are.
 ///

@@ -3,9 +3,11 @@
 use super::QUESTIONS_FILE;
 use crate::{error::RunError, laboratory::unusable};
 use phase_files::{FileError, Problem, json, regular};
-use phase_model::words::Names;
+use phase_model::{
+    json::{Field, FieldError, parse_line},
+    words::Names,
+};
 use phase_questions::{Answer, Control, Question, Score, accepted, parse_answer, parse_free, score};
-use serde::Deserialize;
 use std::{
     collections::{BTreeMap, BTreeSet},
     path::Path,
@@ -23,15 +25,25 @@ pub struct Scored {
 }
 
 /// A line of a file of answers.
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
 struct Line {
     id: String,
     answer: String,
-    #[serde(default)]
     control: Option<String>,
-    #[serde(default)]
     probabilities: Option<Vec<f64>>,
+}
+
+impl Line {
+    fn read(line: &Field<'_>) -> Result<Self, FieldError> {
+        line.only(&["id", "answer", "control", "probabilities"])?;
+        let number = |it: Field<'_>| it.value().as_f64().ok_or_else(|| it.must_be("a number"));
+        let numbers = |list: Field<'_>| list.items()?.map(number).collect();
+        Ok(Self {
+            id: line.required("id")?.text()?.into(),
+            answer: line.required("answer")?.text()?.into(),
+            control: line.optional("control")?.map(|it| it.text().map(String::from)).transpose()?,
+            probabilities: line.optional("probabilities")?.map(numbers).transpose()?,
+        })
+    }
 }
 
 /// Numbers of people who called events friendly, adversarial and neutral.
@@ -46,7 +58,8 @@ pub(super) fn ratings(file: &Path) -> Result<BTreeMap<String, [usize; 3]>, RunEr
 pub(crate) fn questions(file: &Path) -> Result<Vec<Question>, RunError> {
     let text = regular::text(file)?;
     let read = |(k, line): (usize, &str)| {
-        serde_json::from_str(line).map_err(|error| unusable(file, &format!("line {}: {error}", k + 1)))
+        let value = parse_line(line.as_bytes(), k + 1).map_err(|error| unusable(file, &error.to_string()))?;
+        serde_json::from_value(value).map_err(|error| unusable(file, &format!("line {}: {error}", k + 1)))
     };
     text.lines().enumerate().map(read).collect()
 }
@@ -65,8 +78,10 @@ pub fn score_file(answers: &Path, benchmark: &Path) -> Result<Scored, RunError> 
     let mut seen = BTreeSet::new();
     for (k, line) in text.lines().enumerate().filter(|(_, line)| !line.trim().is_empty()) {
         let wrong = |rule: &str| unusable(answers, &format!("line {}: {rule}", k + 1));
+        let value =
+            parse_line(line.as_bytes(), k + 1).map_err(|error| unusable(answers, &error.to_string()))?;
         let Line { id, answer, control, probabilities } =
-            serde_json::from_str(line).map_err(|error| wrong(&error.to_string()))?;
+            Line::read(&Field::root(&value)).map_err(|error| wrong(&error.to_string()))?;
         let name = control.as_deref().unwrap_or(Control::Video.name());
         let names = || Control::ALL.map(Control::name).join(", ");
         let control = Control::named(name)

@@ -58,6 +58,12 @@ fn goes_on() -> Result<(), VideoError> {
     if requested() { Err(VideoError::Interrupted) } else { Ok(()) }
 }
 
+/// Whether an input is read as a table, which its ending tells.
+#[must_use]
+pub fn is_table(input: &Path) -> bool {
+    ["csv", "jsonl", "ndjson", "tsv"].contains(&ending(input).as_str())
+}
+
 /// A run that tracks one video or table.
 #[derive(Clone, PartialEq, Debug)]
 pub struct TrackRun {
@@ -124,7 +130,7 @@ impl TrackRun {
         let id = self.id()?;
         let ending = ending(&self.input);
         let mut shapes_found = None;
-        let (observed, tracking) = if ["csv", "jsonl", "ndjson", "tsv"].contains(&ending.as_str()) {
+        let (observed, tracking) = if is_table(&self.input) {
             let bytes = regular::bytes(&self.input)?;
             phase_track::table(&bytes, &ending, &self.table).map_err(|error| failed(error.into()))?
         } else {

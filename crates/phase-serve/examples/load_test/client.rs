@@ -11,9 +11,10 @@ use phase_model::{
 use rand::RngExt as _;
 use serde_json::{Value, json};
 use std::{
+    collections::BTreeMap,
     net::SocketAddr,
     sync::{
-        Arc,
+        Arc, Mutex, PoisonError,
         atomic::{AtomicBool, AtomicUsize, Ordering},
     },
     time::{Duration, Instant},
@@ -28,9 +29,8 @@ use tokio_tungstenite::{WebSocketStream, client_async, tungstenite::Message};
 const CHANGE: f64 = 0.75;
 /// Duration of a step (s).
 const STEP: f64 = 0.25;
-
-/// A part of what the server says when it has no room left, which is to be tried again.
-const NO_ROOM: &str = "try again later";
+/// Pause after which a player whom the server refused asks again.
+const PAUSE: Duration = Duration::from_secs(1);
 
 /// Why a player cannot play.
 pub(crate) type Failure = Box<dyn core::error::Error + Send + Sync>;
@@ -45,14 +45,14 @@ pub(crate) struct Shared {
     minds: bool,
     begun: Instant,
     playing: AtomicUsize,
-    refused: AtomicUsize,
+    refused: Mutex<BTreeMap<String, usize>>,
     measuring: AtomicBool,
     over: AtomicBool,
 }
 
 impl Shared {
     pub(crate) fn new(scenes: Vec<Item>, parameters: MindParameters, minds: bool) -> Self {
-        let [playing, refused] = [AtomicUsize::new(0), AtomicUsize::new(0)];
+        let (playing, refused) = Default::default();
         let [measuring, over] = [AtomicBool::new(false), AtomicBool::new(false)];
         Self { scenes, parameters, minds, begun: Instant::now(), playing, refused, measuring, over }
     }
@@ -62,9 +62,15 @@ impl Shared {
         self.playing.load(Ordering::Relaxed)
     }
 
-    /// Times that the server had no room left, while one that is over had not been closed.
-    pub(crate) fn refused(&self) -> usize {
-        self.refused.load(Ordering::Relaxed)
+    /// Times that a player was not let in, by the reason: while a room that is over had not been closed, or
+    /// because all players, who have one address, asked at once.
+    pub(crate) fn refused(&self) -> BTreeMap<String, usize> {
+        self.refused.lock().unwrap_or_else(PoisonError::into_inner).clone()
+    }
+
+    fn refuse(&self, why: &Failure) {
+        let mut refused = self.refused.lock().unwrap_or_else(PoisonError::into_inner);
+        *refused.entry(why.to_string()).or_default() += 1;
     }
 
     /// Whether all is measured.
@@ -112,25 +118,35 @@ pub(crate) async fn play_on(
 ) -> Result<Vec<Late>, Failure> {
     let mut lateness = Vec::new();
     while !shared.is_over() {
-        let mut players = Vec::new();
-        let tokens = match open_room(address, &admin, partner).await {
-            Ok(tokens) => tokens,
-            Err(error) if error.to_string().contains(NO_ROOM) => {
-                shared.refused.fetch_add(1, Ordering::Relaxed);
-                tokio::time::sleep(Duration::from_secs(1)).await;
-                continue;
+        match enter(address, &admin, partner, seed, &shared).await {
+            Ok(clients) => {
+                let players: Vec<_> = clients.into_iter().map(|it| tokio::spawn(it.play())).collect();
+                for player in players {
+                    lateness.extend(player.await?);
+                }
             }
-            Err(error) => return Err(error),
-        };
-        for (token, seed) in tokens.into_iter().zip(seed..) {
-            let client = Client::join(address, token, seed, Arc::clone(&shared)).await?;
-            players.push(tokio::spawn(client.play()));
-        }
-        for player in players {
-            lateness.extend(player.await?);
+            Err(why) => {
+                shared.refuse(&why);
+                tokio::time::sleep(PAUSE).await;
+            }
         }
     }
     Ok(lateness)
+}
+
+/// The players of a new room.
+async fn enter(
+    address: SocketAddr,
+    admin: &str,
+    partner: &str,
+    seed: u64,
+    shared: &Arc<Shared>,
+) -> Result<Vec<Client>, Failure> {
+    let mut clients = Vec::new();
+    for (token, seed) in open_room(address, admin, partner).await?.into_iter().zip(seed..) {
+        clients.push(Client::join(address, token, seed, Arc::clone(shared)).await?);
+    }
+    Ok(clients)
 }
 
 /// A player and its socket.

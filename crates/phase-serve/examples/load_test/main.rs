@@ -30,6 +30,7 @@ use phase_sampler::sample_named;
 use phase_serve::{Server, ServerSettings};
 use serde_json::json;
 use std::{
+    collections::BTreeMap,
     io::{BufRead as _, BufReader, Read as _},
     net::SocketAddr,
     path::Path,
@@ -192,8 +193,8 @@ struct Measured {
     memory: Vec<u64>,
     /// The share of one processor that the server took.
     load: f64,
-    /// Times that a room was refused.
-    refused: usize,
+    /// Times that players were not let in, by the reason.
+    refused: BTreeMap<String, usize>,
 }
 
 /// Plays for the time asked for, beside the `crowd`.
