@@ -82,7 +82,7 @@ pub struct TableArguments {
 
 /// Pictures a second in folders of pictures, unless given.
 const FRAME_RATE: u32 = 20;
-/// What `--shapes` needs.
+/// The rule for inputs beside `--shapes`.
 const ONE_FOREIGN: &str = "needs one video that shows no arena with agents";
 
 const MEANINGS: [FrameMeaning; 3] = [FrameMeaning::Substeps, FrameMeaning::Rows, FrameMeaning::Held];
