@@ -34,6 +34,8 @@ macro_rules! trained {
 
 /// ARG (docs/explanation/networks.md).
 pub const ARG: Trained = trained!("arg.safetensors");
+/// The belief network.
+pub const BELIEF_NETWORK: Trained = trained!("belief-network.safetensors");
 /// The intent network of SIMPLE.
 pub const INTENT_NETWORK: Trained = trained!("intent-network.safetensors");
 /// The policy network of our own minds (docs/explanation/minds.md).
@@ -75,6 +77,8 @@ pub const PHASE_500: &str = include_str!("presets/phase-500.json");
 pub const PHASE_500_V1: &str = include_str!("presets/phase-500-v1.json");
 /// Pairs of a false and a true belief (docs/reference/pairs.md).
 pub const PHASE_BELIEFS: &str = include_str!("presets/phase-beliefs.json");
+/// Events to train networks for beliefs with (docs/reference/pairs.md).
+pub const PHASE_BELIEFS_TRAINING: &str = include_str!("presets/phase-beliefs-training.json");
 /// Events of agents that do not know each other's goals (docs/reference/dataset.md).
 pub const PHASE_MINDS: &str = include_str!("presets/phase-minds.json");
 /// Minimal pairs and triples (docs/reference/pairs.md).
@@ -83,11 +87,12 @@ pub const PHASE_PAIRS: &str = include_str!("presets/phase-pairs.json");
 pub const PHASE_TRAINING: &str = include_str!("presets/phase-training.json");
 
 /// All presets by their names.
-pub const PRESETS: [(&str, &str); 7] = [
+pub const PRESETS: [(&str, &str); 8] = [
     ("demo", DEMO),
     ("phase-500", PHASE_500),
     ("phase-500-v1", PHASE_500_V1),
     ("phase-beliefs", PHASE_BELIEFS),
+    ("phase-beliefs-training", PHASE_BELIEFS_TRAINING),
     ("phase-minds", PHASE_MINDS),
     ("phase-pairs", PHASE_PAIRS),
     ("phase-training", PHASE_TRAINING),

@@ -58,3 +58,12 @@ impl Module for Layer {
         self.linear.forward(inputs)
     }
 }
+
+/// Sets a random share of the values to 0 and scales up the others; without a generator nothing.
+pub(crate) fn dropout(values: &Tensor, share: f32, random: Option<&mut Pcg64Mcg>) -> Result<Tensor> {
+    let Some(random) = random else { return Ok(values.clone()) };
+    let keep = 1.0 - share;
+    let mut factor = || if random.random::<f32>() < keep { 1.0 / keep } else { 0.0 };
+    let factors: Vec<f32> = (0..values.elem_count()).map(|_| factor()).collect();
+    values * Tensor::from_vec(factors, values.shape(), &Device::Cpu)?
+}

@@ -5,6 +5,7 @@
 //! - [`intent_network`] trains SIMPLE's learnt guess at intents, which `phase_simple::IntentNetwork`
 //!   evaluates,
 //! - [`policy`] trains the policy network of our own minds, which `phase_agent::PolicyNetwork` evaluates,
+//! - [`belief_network`] tells where agents believe entities to be,
 //! - [`two_level_lstm`] and [`arg`] are the paper's baselines for Task 1,
 //! - [`social_lstm`] and [`stgat`] are those for Task 2,
 //! - [`social_gnn`] is a later one for the relations of Task 1,
@@ -54,6 +55,7 @@
 
 pub mod arg;
 mod attention;
+pub mod belief_network;
 pub mod forecasting;
 pub mod goals;
 pub mod intent_network;

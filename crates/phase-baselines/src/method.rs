@@ -1,9 +1,10 @@
 //! Trained networks as methods that answer to events.
 
-use crate::{forecasting::Forecasting, recognition::Recognition};
+use crate::{belief_network::BeliefNetwork, forecasting::Forecasting, recognition::Recognition};
 use candle_core::Result;
 use phase_event::{
-    Forecaster, MethodError, MethodResult, ObservedEvent, Prediction, ProgressCallback, Recogniser,
+    BeliefOrder, BeliefReader, Beliefs, Forecaster, MethodError, MethodResult, ObservedEvent, Prediction,
+    ProgressCallback, Recogniser,
 };
 use phase_model::Judgement;
 use serde_json::{Value, json};
@@ -57,6 +58,27 @@ impl<N: Forecasting + Sync> Forecaster for TrainedNetwork<N> {
         _tick: ProgressCallback<'_>,
     ) -> MethodResult<Prediction> {
         answered(self.network.forecast(observed, steps).map(Prediction::from))
+    }
+}
+
+impl BeliefReader for TrainedNetwork<BeliefNetwork> {
+    fn settings(&self) -> Value {
+        self.settings()
+    }
+
+    /// Beliefs of the first order alone.
+    fn read_beliefs(
+        &self,
+        observed: &ObservedEvent,
+        order: BeliefOrder,
+        steps: &[usize],
+        _seed: u64,
+        _tick: ProgressCallback<'_>,
+    ) -> MethodResult<Vec<Beliefs>> {
+        match order {
+            BeliefOrder::First => answered(self.network.beliefs(observed, steps)),
+            BeliefOrder::Second => Err(MethodError::new("the network knows no beliefs about beliefs")),
+        }
     }
 }
 

@@ -171,16 +171,35 @@ impl BeliefSummary {
 }
 
 fn scores(events: &[BeliefEvent], seed: u64, asked: fn(&BeliefQuestion) -> bool) -> Option<BeliefScores> {
+    let scored = |it: &BeliefQuestion| ScoredAnswer {
+        right: it.is_right(),
+        brier: it.brier(),
+        confidence: it.answer[likeliest(&it.answer)],
+    };
+    let of = |event: &BeliefEvent| event.questions.iter().filter(|it| asked(it)).map(scored).collect();
+    scores_of(events.iter().map(of), seed)
+}
+
+/// An answer to a question about a belief, compared with the truth.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub(crate) struct ScoredAnswer {
+    /// Whether the likeliest is the right one.
+    pub(crate) right: bool,
+    /// Squared distance of the probabilities.
+    pub(crate) brier: f64,
+    /// Probability of the likeliest.
+    pub(crate) confidence: f64,
+}
+
+/// The scores over the answers to each of some events; `None` without any.
+pub(crate) fn scores_of(events: impl Iterator<Item = Vec<ScoredAnswer>>, seed: u64) -> Option<BeliefScores> {
     let mut answers = Vec::new();
     let (mut right, mut brier) = (Vec::new(), Vec::new());
     for event in events {
-        let questions: Vec<&BeliefQuestion> = event.questions.iter().filter(|it| asked(it)).collect();
-        let of_event = |of: &dyn Fn(&BeliefQuestion) -> f64| {
-            mean(&questions.iter().map(|question| of(question)).collect::<Vec<f64>>())
-        };
-        right.extend(of_event(&|it| f64::from(u8::from(it.is_right()))));
-        brier.extend(of_event(&BeliefQuestion::brier));
-        answers.extend(questions.iter().map(|it| (it.answer[likeliest(&it.answer)], it.is_right())));
+        let of_event = |of: fn(&ScoredAnswer) -> f64| mean(&event.iter().map(of).collect::<Vec<f64>>());
+        right.extend(of_event(|it| f64::from(u8::from(it.right))));
+        brier.extend(of_event(|it| it.brier));
+        answers.extend(event.iter().map(|it| (it.confidence, it.right)));
     }
     Some(BeliefScores {
         n: right.len(),

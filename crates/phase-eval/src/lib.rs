@@ -49,6 +49,7 @@ pub mod comparison;
 pub mod estimate;
 pub mod goals;
 mod group;
+pub mod intents;
 pub mod predictions;
 pub mod ratings;
 pub mod results;

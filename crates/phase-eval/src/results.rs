@@ -4,6 +4,7 @@ use crate::{
     Estimate,
     beliefs::{BeliefEvent, BeliefSummary},
     goals::{self, RecognisedEvent},
+    intents::{IntentEvent, IntentSummary},
     trajectories::{self, ForecastEvent},
 };
 use serde_json::{Value, json, to_value};
@@ -26,6 +27,23 @@ pub fn beliefs(run: &Value, summary: &BeliefSummary, events: &[BeliefEvent]) -> 
         "n_events": summary.n,
         "all": to_value(&summary.all)?, "unseen": to_value(&summary.unseen)?,
         "moved": to_value(&summary.moved)?,
+        "events": to_value(events)?,
+    }))
+}
+
+/// The value of the field `format` of results about believed intents.
+pub const INTENTS_FORMAT: &str = "phase-eval-intents/1";
+
+/// Results about believed intents. `run` describes the run, with its `method` and `seed`.
+///
+/// # Errors
+/// If a part of them cannot be written as JSON.
+pub fn intents(run: &Value, summary: &IntentSummary, events: &[IntentEvent]) -> serde_json::Result<Value> {
+    Ok(json!({
+        "format": INTENTS_FORMAT, "run": run, "method": run["method"], "seed": run["seed"],
+        "n_events": summary.n,
+        "all": to_value(&summary.all)?, "mistaken": to_value(&summary.mistaken)?,
+        "by_step": to_value(&summary.by_step)?,
         "events": to_value(events)?,
     }))
 }

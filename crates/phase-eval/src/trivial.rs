@@ -5,13 +5,13 @@ use phase_event::{
     ProgressCallback, Recogniser, SEEN, certain, others,
 };
 use phase_model::{
-    AGENT_COUNT, AgentId, BodySet, Entity, Forecast, Goal, Judgement, LandmarkId, ObjectId,
-    RelationProbabilities, Sign, State, Vec2,
+    AGENT_COUNT, AgentId, Entity, Forecast, Goal, Judgement, LandmarkId, ObjectId, RelationProbabilities,
+    Sign, State, Vec2,
     arena::{self, STEP_SECONDS},
     layout::room_of,
     random::{Purpose, stream},
 };
-use phase_perception::observed_set;
+use phase_perception::observed_sets;
 use rand::RngExt;
 use serde_json::Value;
 
@@ -125,8 +125,9 @@ impl BeliefReader for BeliefRule {
         _seed: u64,
         _tick: ProgressCallback<'_>,
     ) -> MethodResult<Vec<Beliefs>> {
-        let seen = seen_at(observed);
         let rows = observed.rows();
+        let states: Vec<State> = rows.iter().map(|&row| State::new(row)).collect();
+        let seen = observed_sets(&observed.physics([0.0; AGENT_COUNT]), &states);
         let of = |step: usize, agent: AgentId, entity: Entity| {
             let sees = |t: usize, viewer: AgentId| seen[t][viewer].contains(entity);
             let viewer = order.viewer(agent);
@@ -148,11 +149,4 @@ impl BeliefReader for BeliefRule {
         };
         Ok(Some((steps.iter().map(beliefs).collect(), Value::Null)))
     }
-}
-
-/// The bodies that each agent can see in each row.
-fn seen_at(observed: &ObservedEvent) -> Vec<[BodySet; AGENT_COUNT]> {
-    let physics = observed.physics([0.0; AGENT_COUNT]);
-    let states = observed.rows().iter().map(|&row| State::new(row));
-    states.map(|state| AgentId::ALL.map(|agent| observed_set(&physics, &state, agent))).collect()
 }

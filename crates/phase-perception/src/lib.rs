@@ -59,5 +59,5 @@ pub mod viewpoint;
 
 pub use cells::{Cell, CellSet};
 pub use footprint::footprint;
-pub use observation::{Observation, observe, observe_told, observed_set};
+pub use observation::{Observation, observe, observe_told, observed_set, observed_sets};
 pub use viewpoint::{Viewpoint, field_of_view, sees};

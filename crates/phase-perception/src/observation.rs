@@ -4,7 +4,9 @@ use crate::{
     cells::{Cell, CellSet},
     viewpoint::{Viewpoint, field_of_view},
 };
-use phase_model::{AgentId, Body, BodySet, Contacts, Entity, Grip, MAX_ENTITIES, PhysicsConfig, State};
+use phase_model::{
+    AGENT_COUNT, AgentId, Body, BodySet, Contacts, Entity, Grip, MAX_ENTITIES, PhysicsConfig, State,
+};
 
 /// Everything an agent observes of a state, oᵢ of the paper.
 #[must_use]
@@ -38,6 +40,13 @@ pub fn observed_set(physics: &PhysicsConfig, state: &State, agent: AgentId) -> B
         }
     }
     observed
+}
+
+/// The entities that each agent observes in each of some states.
+#[must_use]
+pub fn observed_sets(physics: &PhysicsConfig, states: &[State]) -> Vec<[BodySet; AGENT_COUNT]> {
+    let of = |state: &State| AgentId::ALL.map(|agent| observed_set(physics, state, agent));
+    states.iter().map(of).collect()
 }
 
 /// An agent's observation at one moment. It contains nothing unobserved, so two observations are equal if the

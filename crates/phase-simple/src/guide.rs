@@ -121,7 +121,7 @@ impl Guess {
 }
 
 /// The intent that a hypothesis ascribes to an agent.
-fn intent_of(hypothesis: &Hypothesis, agent: AgentId) -> Intent {
+pub(crate) fn intent_of(hypothesis: &Hypothesis, agent: AgentId) -> Intent {
     let attitude = hypothesis.attitudes[agent];
     let owner = if attitude == Attitude::Neutral { agent } else { agent.other() };
     Intent { attitude, goal: hypothesis.goals[owner] }

@@ -112,10 +112,7 @@ pub(crate) fn evidence(
             }
             all.push(beliefs);
         }
-        let of_agent = match order {
-            BeliefOrder::First => own_places(prepared, agent, &all, steps),
-            BeliefOrder::Second => ascribed_places(prepared, agent, &all, steps),
-        };
+        let of_agent = places_of(prepared, agent, &all, (order, steps));
         places.iter_mut().zip(of_agent).for_each(|(places, it)| places[agent] = it);
     }
     Ok(Some(BeliefEvidence { order, log_likelihoods, places }))
@@ -146,48 +143,46 @@ fn telling_steps(prepared: &PreparedEvent, agent: AgentId) -> Vec<usize> {
     (begins(prepared, agent)..observed.steps()).filter(hidden).collect()
 }
 
-/// The places where an agent believes each other entity to be after some steps, by its knowledge.
-fn own_places(
+/// The places where an agent believes each other entity to be after some steps, by its knowledge; or where it
+/// believes the other to believe them to be, by the knowledge of both.
+fn places_of(
     prepared: &PreparedEvent,
     agent: AgentId,
     beliefs: &[EstimatedBeliefs],
-    steps: &[usize],
+    (order, steps): (BeliefOrder, &[usize]),
 ) -> Vec<Vec<Alternatives>> {
     let observed = prepared.observed();
     let physics = observed.physics([0.0; AGENT_COUNT]);
+    let ascribed = match order {
+        BeliefOrder::First => Vec::new(),
+        BeliefOrder::Second => beliefs.iter().flat_map(|it| ascribed_by(prepared, agent, it)).collect(),
+    };
     let after = |&step: &usize| {
         let seen = observed_set(&physics, &prepared.motion().states[step], agent);
-        let of = |entity: Entity| {
-            let with = |it: &EstimatedBeliefs| {
-                whereabouts(it.after(step).particles(), entity, seen.contains(entity))
-            };
-            beliefs.iter().map(with).collect()
+        let own = |it: &EstimatedBeliefs, entity: Entity| {
+            whereabouts(it.after(step).particles(), entity, seen.contains(entity))
         };
-        others(agent, observed.object_sizes().len()).map(of).collect()
+        let of = |entity: Entity| match order {
+            BeliefOrder::First => beliefs.iter().map(|it| own(it, entity)).collect(),
+            BeliefOrder::Second => ascribed.iter().map(|it| it[step].places(entity)).collect(),
+        };
+        others(order.viewer(agent), observed.object_sizes().len()).map(of).collect()
     };
     steps.iter().map(after).collect()
 }
 
-/// The places where an agent believes the other to believe each entity to be, by the knowledge of both.
-fn ascribed_places(
+/// The beliefs that an agent with these beliefs ascribes to the other at the start and after every step, for
+/// each kind of knowledge that it may have.
+fn ascribed_by(
     prepared: &PreparedEvent,
     agent: AgentId,
-    beliefs: &[EstimatedBeliefs],
-    steps: &[usize],
-) -> Vec<Vec<Alternatives>> {
+    beliefs: &EstimatedBeliefs,
+) -> [Vec<AscribedBelief>; SIGHTS.len()] {
     let observed = prepared.observed();
     let physics = observed.physics([0.0; AGENT_COUNT]);
-    let mut ascribed = Vec::with_capacity(SIGHTS.len() * SIGHTS.len());
-    for beliefs in beliefs {
-        let glance = |step: usize| Glance::of(&physics, beliefs.after(step).particles(), agent.other());
-        let glances: Vec<Glance> = (0..=observed.steps()).map(glance).collect();
-        ascribed.extend(SIGHTS.map(|sees| AscribedBelief::along(&glances, sees)));
-    }
-    let after = |&step: &usize| {
-        let of = |entity: Entity| ascribed.iter().map(|it| it[step].places(entity)).collect();
-        others(agent.other(), observed.object_sizes().len()).map(of).collect()
-    };
-    steps.iter().map(after).collect()
+    let glance = |step: usize| Glance::of(&physics, beliefs.after(step).particles(), agent.other());
+    let glances: Vec<Glance> = (0..=observed.steps()).map(glance).collect();
+    SIGHTS.map(|sees| AscribedBelief::along(&glances, sees))
 }
 
 /// The step in which an agent begins to act: the first after which it is elsewhere, or turned.

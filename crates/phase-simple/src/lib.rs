@@ -50,6 +50,7 @@
 
 mod answer;
 mod beliefs;
+mod believed;
 pub mod choice;
 pub mod cue;
 mod evidence;

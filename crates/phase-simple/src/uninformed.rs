@@ -26,7 +26,8 @@ pub(crate) fn scene(
     scene
 }
 
-fn actions_of(motion: &InverseDynamics, agent: AgentId) -> Vec<Action> {
+/// The actions of an agent.
+pub(crate) fn actions_of(motion: &InverseDynamics, agent: AgentId) -> Vec<Action> {
     motion.actions.iter().map(|actions| actions[agent]).collect()
 }
 

@@ -6,7 +6,7 @@
 mod hypotheses;
 
 use crate::{
-    layer::Layer,
+    layer::{Layer, dropout},
     lstm::Lstm,
     parameters::Parameter,
     training::{Loss, Network, PublishedNetwork, TrainingSettings},
@@ -17,7 +17,6 @@ use hypotheses::{GOALS, Hypotheses, truth};
 use phase_event::ObservedEvent;
 use phase_model::{AGENT_COUNT, Attitude, Goal, MAX_OBJECTS, random::Pcg64Mcg};
 use phase_simple::intent_network::{FEATURES, GoalFeatures, OUTPUTS, goal_index};
-use rand::RngExt;
 use std::sync::Arc;
 use thiserror::Error;
 
@@ -131,13 +130,14 @@ impl IntentNetwork {
         for row in 0..rows {
             let inputs: Vec<f32> = events.iter().flat_map(|event| event.row(row)).copied().collect();
             let inputs = Tensor::from_vec(inputs, (sequences, FEATURES), &Device::Cpu)?;
-            let embedded = dropout(&self.embedding.forward(&inputs)?.relu()?, random.as_deref_mut())?;
+            let embedded =
+                dropout(&self.embedding.forward(&inputs)?.relu()?, DROPOUT, random.as_deref_mut())?;
             let active: Arc<[bool]> = events.iter().flat_map(|event| [row < event.rows; SEQUENCES]).collect();
             state = self.memory.step(&embedded, &state, Some(active))?;
             if row == 0 {
                 continue;
             }
-            let seen = dropout(&self.memory.output(&state)?, random.as_deref_mut())?;
+            let seen = dropout(&self.memory.output(&state)?, DROPOUT, random.as_deref_mut())?;
             let logits = self.output.forward(&self.hidden.forward(&seen)?.relu()?)?;
             let logits = logits.reshape((events.len(), SEQUENCES * OUTPUTS))?;
             let joint = (logits.index_select(&first, 1)? + logits.index_select(&second, 1)?)?;
@@ -164,15 +164,6 @@ impl LabelledIntents {
             _ => (1.0 - LAST) / steps as f32,
         }
     }
-}
-
-/// Sets a random share of the values to 0 and scales up the others; without a generator nothing.
-fn dropout(values: &Tensor, random: Option<&mut Pcg64Mcg>) -> Result<Tensor> {
-    let Some(random) = random else { return Ok(values.clone()) };
-    let keep = 1.0 - DROPOUT;
-    let mut factor = || if random.random::<f32>() < keep { 1.0 / keep } else { 0.0 };
-    let factors: Vec<f32> = (0..values.elem_count()).map(|_| factor()).collect();
-    values * Tensor::from_vec(factors, values.shape(), &Device::Cpu)?
 }
 
 impl Network for IntentNetwork {

@@ -1,5 +1,6 @@
 //! The paper's neural baselines, with small sizes.
 
+mod beliefs;
 mod forecasting;
 mod goals;
 mod learning;

@@ -51,6 +51,7 @@ pub fn run(arguments: &Eval, context: &Context) -> Result<(), CliError> {
         Eval::Beliefs(options) => {
             announce(evaluation.beliefs(&answers, options.order(), context)?, arguments, &others)
         }
+        Eval::Intents(_) => announce(evaluation.intents(&answers, context)?, arguments, &others),
         Eval::Trajectories(_) => announce(evaluation.trajectories(&answers, context)?, arguments, &others),
     }
 }

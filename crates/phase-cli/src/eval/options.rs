@@ -16,6 +16,8 @@ pub enum Eval {
     Trajectories(EvalTrajectories),
     /// Places at which agents believe entities to be, in simulated events
     Beliefs(EvalBeliefs),
+    /// Intents that agents which do not know them take each other to have, in simulated events
+    Intents(EvalIntents),
 }
 
 /// Options of `eval goals`.
@@ -65,15 +67,31 @@ pub struct EvalTrajectories {
 /// Options of `eval beliefs`.
 #[derive(Args, Debug)]
 pub struct EvalBeliefs {
-    /// The method to measure: simple, or a rule: the room where the agent that believes could last see an
-    /// entity, where (with --order 2) the agent that ascribes the belief could, where it is now, or where it
-    /// was at the start
+    /// The method to measure: simple, the belief network, or a rule: the room where the agent that believes
+    /// could last see an entity, where (with --order 2) the agent that ascribes the belief could, where it is
+    /// now, or where it was at the start
     #[arg(long, value_name = "METHOD", value_parser = PossibleValuesParser::new(methods::BELIEF_READERS))]
     pub method: String,
     /// Order of the beliefs, 1 to 2: where each agent believes each entity to be, or where it believes the
     /// other to believe it
     #[arg(long, value_name = "1|2", default_value_t = 1, value_parser = value_parser!(u8).range(1..=2))]
     pub order: u8,
+    /// The weights of the belief network (safetensors, as `train` writes them) [default: those that come
+    /// with the program]
+    #[arg(long, value_name = "FILE")]
+    pub weights: Option<PathBuf>,
+    /// Events and output.
+    #[command(flatten)]
+    pub common: Common,
+}
+
+/// Options of `eval intents`.
+#[derive(Args, Debug)]
+pub struct EvalIntents {
+    /// The method to measure: simple-knowledge; simple, which takes every agent to know what the other wants;
+    /// or even, for which all intents are as likely
+    #[arg(long, value_name = "METHOD", value_parser = PossibleValuesParser::new(methods::INTENT_READERS))]
+    pub method: String,
     /// Events and output.
     #[command(flatten)]
     pub common: Common,
@@ -156,6 +174,7 @@ impl Eval {
             Self::Goals(_) => "goals",
             Self::Trajectories(_) => "trajectories",
             Self::Beliefs(_) => "beliefs",
+            Self::Intents(_) => "intents",
         }
     }
 
@@ -165,6 +184,7 @@ impl Eval {
             Self::Goals(options) => &options.common,
             Self::Trajectories(options) => &options.common,
             Self::Beliefs(options) => &options.common,
+            Self::Intents(options) => &options.common,
         }
     }
 
@@ -174,7 +194,7 @@ impl Eval {
             Self::Goals(EvalGoals { others, .. }) | Self::Trajectories(EvalTrajectories { others, .. }) => {
                 &others.compare
             }
-            Self::Beliefs(_) => &[],
+            Self::Beliefs(_) | Self::Intents(_) => &[],
         }
     }
 }
@@ -184,7 +204,7 @@ impl From<&Eval> for Evaluation {
         let common = options.common();
         let (watched, ratings) = match options {
             Eval::Goals(options) => (options.watched.clone(), options.ratings.clone()),
-            Eval::Trajectories(_) | Eval::Beliefs(_) => (Vec::new(), None),
+            Eval::Trajectories(_) | Eval::Beliefs(_) | Eval::Intents(_) => (Vec::new(), None),
         };
         Self {
             events: common.events.clone(),
@@ -205,7 +225,8 @@ impl From<&Eval> for Answers {
     fn from(options: &Eval) -> Self {
         let minds = options.common().minds.into();
         let (method, weights, predictions) = match options {
-            Eval::Beliefs(options) => (Some(&options.method), None, None),
+            Eval::Beliefs(options) => (Some(&options.method), options.weights.clone(), None),
+            Eval::Intents(options) => (Some(&options.method), None, None),
             Eval::Goals(EvalGoals { method, others, .. })
             | Eval::Trajectories(EvalTrajectories { method, others, .. }) => {
                 (method.as_ref(), others.weights.clone(), others.predictions.clone())

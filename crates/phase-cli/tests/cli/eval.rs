@@ -146,6 +146,23 @@ fn rubbish_is_refused() {
             &["events.json", "was not simulated"],
         ),
         (
+            &["eval", "beliefs", "--method", "belief-network", "--order", "2", "--events", "events.json"],
+            &["--order 2", "belief-network"],
+        ),
+        (
+            &[
+                "eval",
+                "beliefs",
+                "--method",
+                "simple",
+                "--weights",
+                "rubbish.json",
+                "--events",
+                "events.json",
+            ],
+            &["--weights", "simple"],
+        ),
+        (
             &["eval", "trajectories", "--method", "still", "--events", "short.json"],
             &["short.json", "event short has 20 steps"],
         ),

@@ -9,7 +9,8 @@ use std::{
     process::Stdio,
 };
 
-const NETWORKS: [&str; 6] = ["intent-network", "two-level-lstm", "arg", "socialgnn", "social-lstm", "stgat"];
+const NETWORKS: [&str; 7] =
+    ["intent-network", "belief-network", "two-level-lstm", "arg", "socialgnn", "social-lstm", "stgat"];
 /// One of them, for what is the same for all.
 const NETWORK: &str = "two-level-lstm";
 /// Rounds that a training goes on for.
@@ -179,6 +180,17 @@ fn the_record_says_what_was_learnt_from() {
         let reason = "has 1 train events, fewer than the 2 of --events";
         assert_eq!((code, text), (Some(2), format!("error: {first}: {reason}\n")));
     }
+}
+
+#[test]
+fn beliefs_are_learnt_from_simulated_events_alone() {
+    let folder = tempfile::tempdir().expect("a folder");
+    write_dataset(folder.path());
+    let path = |name: &str| folder.path().join(name).to_string_lossy().into_owned();
+    let (code, said) = train(&["belief-network", "--data", &path(""), "--out", &path("out")]);
+    assert_eq!(code, Some(2), "{said}");
+    assert!(said.contains("event train: was not simulated"), "{said}");
+    assert!(!Path::new(&path("out")).exists());
 }
 
 /// Further training events come from datasets and from simulations, and are in the record; what was trained

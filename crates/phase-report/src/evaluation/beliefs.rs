@@ -5,20 +5,13 @@ use phase_document::document::{Block, Document, head};
 use phase_eval::beliefs::{AGREEMENT, BeliefScores, BeliefSummary, STRIDE};
 use phase_event::BeliefOrder;
 
+/// Explanation of the columns of scores.
+pub(super) const LEGEND: &str = "Square brackets hold the 95 % bootstrap interval over events, which have equal \
+    weight. Brier is the squared distance of the probabilities, 0 to 2.";
+
 /// The report of how well a method tells what agents believe.
 #[must_use]
 pub fn beliefs(subject: Subject<'_>, summary: &BeliefSummary) -> Document {
-    let row = |name: &str, scores: &Option<BeliefScores>| {
-        let cells = scores.as_ref().map_or_else(
-            || ["0", "0", "-", "-", "-"].map(String::from),
-            |scores| {
-                let BeliefScores { n, questions, accuracy, brier, calibration } = scores;
-                let error = format!("{:.3}", calibration.error);
-                [n.to_string(), questions.to_string(), share(accuracy), share(brier), error]
-            },
-        );
-        [name.to_owned()].into_iter().chain(cells).collect()
-    };
     let title = if summary.order == BeliefOrder::First { "Beliefs" } else { "Beliefs about beliefs" };
     let (asked, unseen, moved) = match summary.order {
         BeliefOrder::First => (
@@ -32,8 +25,11 @@ pub fn beliefs(subject: Subject<'_>, summary: &BeliefSummary) -> Document {
             "moved since the other could see it",
         ),
     };
-    let rows =
-        vec![row("all entities", &summary.all), row(unseen, &summary.unseen), row(moved, &summary.moved)];
+    let rows = vec![
+        scores_row("all entities", summary.all.as_ref()),
+        scores_row(unseen, summary.unseen.as_ref()),
+        scores_row(moved, summary.moved.as_ref()),
+    ];
     let columns = ["beliefs about", "events", "questions", "accuracy", "Brier", "calibration error"];
     let text = format!(
         "{}, seed {}: {} events. The method sees a whole event and says, every {STRIDE} steps, in which room {asked}. The \
@@ -46,12 +42,20 @@ pub fn beliefs(subject: Subject<'_>, summary: &BeliefSummary) -> Document {
     let blocks = vec![
         Block::Text(text),
         Block::Table { head: head(&columns), rows },
-        Block::Text(
-            "Square brackets hold the 95 % bootstrap interval over events, which have equal weight. Brier is the squared \
-             distance of the probabilities, 0 to 2."
-                .into(),
-        ),
+        Block::Text(LEGEND.into()),
         Block::Text(cost(summary.cpu_seconds_per_event)),
     ];
     Document { title: format!("{title} told by {}", subject.method), blocks }
+}
+
+/// A row of a table of scores.
+pub(super) fn scores_row(name: &str, scores: Option<&BeliefScores>) -> Vec<String> {
+    let cells = scores.map_or_else(
+        || ["0", "0", "-", "-", "-"].map(String::from),
+        |BeliefScores { n, questions, accuracy, brier, calibration }| {
+            let error = format!("{:.3}", calibration.error);
+            [n.to_string(), questions.to_string(), share(accuracy), share(brier), error]
+        },
+    );
+    [name.to_owned()].into_iter().chain(cells).collect()
 }

@@ -3,6 +3,7 @@
 mod beliefs;
 mod benchmark;
 mod goals;
+mod intents;
 mod leaderboard;
 mod questions;
 mod trajectories;
@@ -10,6 +11,7 @@ mod trajectories;
 pub use beliefs::beliefs;
 pub use benchmark::{Page, benchmark, figures, overview, page, to_lines};
 pub use goals::goals;
+pub use intents::intents;
 pub use leaderboard::{LEADERBOARD_FORMAT, Measures, Score, Scores, Source, leaderboard};
 pub use questions::{AskedQuestions, TypeScore, questions_page};
 pub use trajectories::trajectories;

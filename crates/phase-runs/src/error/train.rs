@@ -7,7 +7,7 @@ use phase_baselines::{
     strength,
     training::{CheckpointError, NetworkError, TrainingError, TrainingRecordError},
 };
-use phase_event::ObservedError;
+use phase_event::{MethodError, ObservedError};
 use phase_files::{FileError, WriteError};
 use phase_model::json::FieldError;
 use phase_pomcp::PomcpError;
@@ -83,6 +83,14 @@ pub enum TrainError {
         /// The event.
         id: String,
     },
+    /// Nobody knows the beliefs of an event's agents.
+    #[error("event {id}: {source}")]
+    Beliefs {
+        /// The event.
+        id: String,
+        /// Why.
+        source: MethodError,
+    },
     /// The settings of an event cannot be read.
     #[error("event {id}: {source}")]
     Settings {
@@ -143,6 +151,7 @@ impl TrainError {
             | Self::UnknownId { .. }
             | Self::Observed { .. }
             | Self::NoThoughts { .. }
+            | Self::Beliefs { .. }
             | Self::Settings { .. }
             | Self::Search { .. }
             | Self::Label { .. }

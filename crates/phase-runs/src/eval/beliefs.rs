@@ -1,6 +1,6 @@
 //! Places at which agents believe entities to be, compared with their particles.
 
-use super::{Answers, answers::AnswerSource, input::Event, methods, task::Task};
+use super::{Answers, answers::AnswerSource, input::Event, methods, networks, task::Task};
 use crate::error::RunError;
 use phase_belief::{AscribedBelief, Glance};
 use phase_eval::beliefs::{BeliefEvent, BeliefQuestion, asked_steps};
@@ -11,7 +11,7 @@ use phase_event::{
 use phase_model::{
     AGENT_COUNT, AgentId, BodySet, Entity, Knowledge, Scene, Sight, State, json::FieldError, layout::room_of,
 };
-use phase_perception::observed_set;
+use phase_perception::observed_sets;
 use phase_sim::SimulationSettings;
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
@@ -27,6 +27,13 @@ impl BeliefTask {
     /// The task for the answers of a method about beliefs of an order.
     pub(crate) fn of(answers: &Answers, order: BeliefOrder) -> Result<Self, RunError> {
         let file = |_: &Path| Err(RunError::Usage("--predictions: not of beliefs; give a --method".into()));
+        if let Answers::Method { name, .. } = answers
+            && order == BeliefOrder::Second
+            && networks::is_network(name)
+        {
+            let rule = "tells where agents believe entities to be, not what they ascribe to each other";
+            return Err(RunError::Usage(format!("--order 2: method {name:?} {rule}")));
+        }
         Ok(Self { answers: AnswerSource::of(answers, methods::belief_reader, file)?, order })
     }
 }
@@ -58,15 +65,7 @@ impl Task for BeliefTask {
     }
 
     fn check(&self, event: &Event, file: &Path) -> Result<(), RunError> {
-        if !event.simulated {
-            let rule = "was not simulated, so nobody knows its agents' beliefs";
-            return Err(RunError::Usage(format!("{}: event {}: {rule}", file.display(), event.id)));
-        }
-        if !asked_steps(event.steps).is_empty() {
-            return Ok(());
-        }
-        let needed = "beliefs are asked about every four steps";
-        Err(RunError::StartAlone { file: file.to_owned(), id: event.id.clone(), needed })
+        check_simulated(event, file)
     }
 
     fn ask(
@@ -86,6 +85,19 @@ impl Task for BeliefTask {
             TrueBeliefs::of(recording, self.order, &steps)?.questions(&answers).map_err(MethodError::new)?;
         Ok(Some(BeliefEvent { id: event.id.clone(), order: self.order, questions, cpu_seconds, details }))
     }
+}
+
+/// Checks that an event was simulated and is long enough to ask about.
+pub(super) fn check_simulated(event: &Event, file: &Path) -> Result<(), RunError> {
+    if !event.simulated {
+        let rule = "was not simulated, so nobody knows its agents' beliefs";
+        return Err(RunError::Usage(format!("{}: event {}: {rule}", file.display(), event.id)));
+    }
+    if !asked_steps(event.steps).is_empty() {
+        return Ok(());
+    }
+    let needed = "beliefs are asked about every four steps";
+    Err(RunError::StartAlone { file: file.to_owned(), id: event.id.clone(), needed })
 }
 
 /// The beliefs of the agents of a simulated event after some steps.
@@ -127,6 +139,12 @@ impl TrueBeliefs {
         })
     }
 
+    /// The beliefs after each of the steps.
+    #[must_use]
+    pub fn beliefs(&self) -> &[Beliefs] {
+        &self.beliefs
+    }
+
     /// The questions about these beliefs, with the answers of a method.
     ///
     /// # Errors
@@ -156,11 +174,10 @@ impl Truth {
         let minds = SimulationSettings::read(&simulation.settings, "settings")?.minds;
         let physics = event.scene.physics();
         let states = phase_questions::Inside::states_of(event);
-        let seen = |state: &State| AgentId::ALL.map(|agent| observed_set(&physics, state, agent));
         let particles = AgentId::ALL.map(|agent| {
             phase_sim::beliefs(event, agent, &minds).into_iter().map(|snapshot| snapshot.particles).collect()
         });
-        let seen = states.iter().map(seen).collect();
+        let seen = observed_sets(&physics, &states);
         Ok(Self { objects: event.scene.objects.len(), states, seen, particles })
     }
 

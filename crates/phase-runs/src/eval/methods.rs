@@ -1,6 +1,6 @@
 //! The methods by name. A new method is added here.
 
-use super::networks;
+use super::{intents::IntentReader, networks};
 use crate::{effort::MindChoice, error::RunError};
 use phase_eval::trivial::{BeliefRule, Chance, ConstantVelocity, Stationary};
 use phase_event::{BeliefReader, Forecaster, Recogniser};
@@ -19,7 +19,11 @@ pub const FORECASTERS: [&str; 6] =
     ["simple", "simple-published", "social-lstm", "stgat", "constant-velocity", "still"];
 
 /// Names of the methods for beliefs.
-pub const BELIEF_READERS: [&str; 5] = ["simple", "last-seen", "own-belief", "true-state", "first-state"];
+pub const BELIEF_READERS: [&str; 6] =
+    ["simple", "belief-network", "last-seen", "own-belief", "true-state", "first-state"];
+
+/// Names of the methods for believed intents.
+pub const INTENT_READERS: [&str; 3] = ["simple-knowledge", "simple", "even"];
 
 /// Names of the methods for goals and relations.
 #[must_use]
@@ -73,16 +77,19 @@ pub fn forecaster(
     }
 }
 
-/// A method for beliefs; see [`recogniser`]. None has weights.
+/// A method for beliefs; see [`recogniser`].
 ///
 /// # Errors
-/// If there is none of this name in this build, or weights are given.
+/// If there is none of this name in this build, or the file cannot be used.
 pub fn belief_reader(
     name: &str,
     weights: Option<&Path>,
     minds: &MindChoice,
 ) -> Result<Box<dyn BeliefReader>, RunError> {
     let simple = simple(name, minds)?;
+    if let Some(network) = networks::belief_reader(name, weights)? {
+        return Ok(network);
+    }
     no_weights(name, weights)?;
     match name {
         "last-seen" => Ok(Box::new(BeliefRule::LastSeen)),
@@ -91,6 +98,20 @@ pub fn belief_reader(
         "first-state" => Ok(Box::new(BeliefRule::FirstState)),
         _ => Ok(Box::new(simple.ok_or_else(|| no_such(name))?)),
     }
+}
+
+/// A method for believed intents; see [`recogniser`]. None has weights.
+pub(crate) fn intent_reader(
+    name: &str,
+    weights: Option<&Path>,
+    minds: &MindChoice,
+) -> Result<Box<IntentReader>, RunError> {
+    let simple = simple(name, minds)?;
+    no_weights(name, weights)?;
+    Ok(Box::new(match name {
+        "even" => IntentReader::Even,
+        _ => IntentReader::Simple(Box::new(simple.ok_or_else(|| no_such(name))?)),
+    }))
 }
 
 /// SIMPLE with these minds; `None` for other methods, for which none can be chosen.

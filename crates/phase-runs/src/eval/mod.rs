@@ -2,14 +2,15 @@
 //!
 //! [`methods`] knows the methods by name, `task` asks one of them event by event and stores its answers, so
 //! that a run can be interrupted; `shards` divides it among machines; `goals` and `trajectories` are the two
-//! tasks of the paper, `beliefs` is about what agents believe, `answers` has also those of an external
-//! method.
+//! tasks of the paper, `beliefs` is about where agents believe entities to be, `intents` about what they take
+//! each other to want, `answers` has also those of an external method.
 
 pub(crate) mod answers;
 mod beliefs;
 pub mod compare;
 pub(crate) mod goals;
 pub(crate) mod input;
+mod intents;
 pub mod methods;
 pub mod networks;
 pub(crate) mod ratings;
@@ -27,8 +28,11 @@ use crate::{effort::MindChoice, error::RunError, listener::Listener};
 use beliefs::BeliefTask;
 use goals::Goals;
 use input::Input;
+use intents::IntentTask;
 use phase_dataset::splits::Split;
-use phase_eval::{beliefs::BeliefEvent, goals::RecognisedEvent, trajectories::ForecastEvent};
+use phase_eval::{
+    beliefs::BeliefEvent, goals::RecognisedEvent, intents::IntentEvent, trajectories::ForecastEvent,
+};
 use phase_event::BeliefOrder;
 use ratings::Ratings;
 use std::path::PathBuf;
@@ -152,5 +156,19 @@ impl Evaluation {
     ) -> Result<Option<Evaluated<BeliefEvent>>, RunError> {
         let input = Input::open(self, listener)?;
         task::evaluate(&BeliefTask::of(answers, order)?, &input, self, listener)
+    }
+
+    /// Evaluates what a method says that agents take each other to want, in simulated events of agents that
+    /// do not know it; `None` if that is only a part, which is now done.
+    ///
+    /// # Errors
+    /// Those of [`Evaluation::beliefs`].
+    pub fn intents(
+        &self,
+        answers: &Answers,
+        listener: &dyn Listener,
+    ) -> Result<Option<Evaluated<IntentEvent>>, RunError> {
+        let input = Input::open(self, listener)?;
+        task::evaluate(&IntentTask::of(answers)?, &input, self, listener)
     }
 }

@@ -4,7 +4,8 @@ use phase_document::document::Document;
 use phase_eval::{
     beliefs::{BeliefEvent, BeliefSummary},
     goals::{ErrorBreakdown, RecognisedEvent, RecognitionSummary},
-    results::{self, BELIEFS_FORMAT, GOALS_FORMAT, TRAJECTORIES_FORMAT},
+    intents::{IntentEvent, IntentSummary},
+    results::{self, BELIEFS_FORMAT, GOALS_FORMAT, INTENTS_FORMAT, TRAJECTORIES_FORMAT},
     trajectories::{ForecastEvent, ForecastSummary},
 };
 use phase_report::evaluation::{self, Subject};
@@ -122,5 +123,31 @@ impl ScoredEvent for BeliefEvent {
 
     fn report(subject: Subject<'_>, summary: &Self::Summary) -> Document {
         evaluation::beliefs(subject, summary)
+    }
+}
+
+impl ScoredEvent for IntentEvent {
+    type Summary = IntentSummary;
+
+    const FORMAT: &'static str = INTENTS_FORMAT;
+
+    fn id(&self) -> &str {
+        &self.id
+    }
+
+    fn cpu_seconds(&mut self) -> &mut Option<f64> {
+        &mut self.cpu_seconds
+    }
+
+    fn sum_up(events: &[Self], seed: u64) -> Option<Self::Summary> {
+        IntentSummary::of(events, seed)
+    }
+
+    fn results(run: &Value, summary: &Self::Summary, events: &[Self]) -> serde_json::Result<Value> {
+        results::intents(run, summary, events)
+    }
+
+    fn report(subject: Subject<'_>, summary: &Self::Summary) -> Document {
+        evaluation::intents(subject, summary)
     }
 }

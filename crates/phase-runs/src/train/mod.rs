@@ -8,10 +8,12 @@ mod training_files;
 
 use crate::{
     error::{RunError, train::TrainError},
+    eval::TrueBeliefs,
     listener::Listener,
 };
 use phase_baselines::{
     arg::Arg,
+    belief_network::{self, BeliefNetwork, LabelledBeliefs},
     forecasting,
     intent_network::{self, IntentNetwork, LabelledIntents},
     nodes::Nodes,
@@ -22,7 +24,7 @@ use phase_baselines::{
     stgat::Stgat,
     two_level_lstm::TwoLevelLstm,
 };
-use phase_event::{ObservedEvent, Recording};
+use phase_event::{BeliefOrder, ObservedEvent, Recording};
 use phase_minds::MindParameters;
 use phase_sim::SimulationSettings;
 use serde_json::Value;
@@ -37,6 +39,8 @@ pub enum Trainee {
     IntentNetwork,
     /// The policy network of our own minds: what a search would choose.
     Policy,
+    /// The belief network: where agents believe entities to be.
+    Beliefs,
     /// 2-Level LSTM, for goals and relations.
     TwoLevelLstm,
     /// Actor relation graph, for goals and relations.
@@ -94,6 +98,9 @@ impl Training {
                 network::run::<IntentNetwork>(self, listener, intent_network::SETTINGS, intents)
             }
             Trainee::Policy => network::run::<PolicyNetwork>(self, listener, policy::SETTINGS, decisions),
+            Trainee::Beliefs => {
+                network::run::<BeliefNetwork>(self, listener, belief_network::SETTINGS, beliefs)
+            }
             Trainee::TwoLevelLstm => {
                 network::run::<TwoLevelLstm>(self, listener, recognition::SETTINGS, labelled)
             }
@@ -108,6 +115,13 @@ impl Training {
 fn intents(recording: &Recording, observed: &ObservedEvent) -> Result<LabelledIntents, TrainError> {
     LabelledIntents::new(observed, recording.scene.goals(), recording.scene.attitudes())
         .map_err(|source| TrainError::Hypothesis { id: recording.id.clone(), source })
+}
+
+fn beliefs(recording: &Recording, observed: &ObservedEvent) -> Result<LabelledBeliefs, TrainError> {
+    let steps: Vec<usize> = (0..observed.rows().len()).collect();
+    let truth = TrueBeliefs::of(recording, BeliefOrder::First, &steps)
+        .map_err(|source| TrainError::Beliefs { id: recording.id.clone(), source })?;
+    Ok(LabelledBeliefs::new(observed, truth.beliefs()))
 }
 
 fn decisions(recording: &Recording, observed: &ObservedEvent) -> Result<Decisions, TrainError> {

@@ -4,8 +4,8 @@ use super::variants::{VARIANTS, Variant};
 use crate::{
     Algorithm, AlternativeAgents, BeliefEvidence, Cues, ForecastSettings, Guidance, Guide, ImaginedAgents,
     Inference, InferenceError, InferenceSettings, InversePlanningSettings, KnowledgeOfGoal,
-    KnowledgeSettings, MindPosterior, Models, ModelsError, Observer, ObserverError, PreparedEvent, futures,
-    infer, knowledge,
+    KnowledgeSettings, MindPosterior, Models, ModelsError, Observer, ObserverError, PreparedEvent, believed,
+    futures, infer, knowledge,
 };
 use core::ops::ControlFlow;
 use phase_event::{
@@ -13,9 +13,9 @@ use phase_event::{
     ProgressCallback, Recogniser, SAMPLES,
 };
 use phase_minds::{MindKind, Recorder};
-use phase_model::{AgentId, Intent, Judgement};
+use phase_model::{AGENT_COUNT, AgentId, Intent, Judgement};
 use serde_json::{Value, json};
-use std::sync::Arc;
+use std::{collections::BTreeMap, sync::Arc};
 
 /// Hypotheses kept with an answer.
 const REPORTED_HYPOTHESES: usize = 12;
@@ -224,11 +224,7 @@ impl Simple {
         let Some((likeliest, _)) = inference.posterior.hypotheses.first() else {
             return Err(MethodError::new("has no explanation"));
         };
-        // Published minds have no other senses than their own.
-        let prepared = match prepared.agents().minds.kind() {
-            MindKind::Phase => prepared,
-            MindKind::Published => prepared.with_agents(ImaginedAgents::of(MindKind::Phase)),
-        };
+        let prepared = with_our_minds(prepared);
         let planning = match self.settings.algorithm {
             Algorithm::InversePlanning(planning) => planning,
             Algorithm::Chains(_) => InversePlanningSettings::default(),
@@ -236,6 +232,36 @@ impl Simple {
         let evidence = knowledge::evidence(&prepared, likeliest, (order, steps), &planning, &mut *tick);
         let evidence = evidence.map_err(MethodError::new)?;
         Ok(evidence.map(|evidence| (evidence, details(&prepared, &inference))))
+    }
+
+    /// The intents that each agent takes the other to have after some steps of an event, with their
+    /// probabilities; `None` if `tick` cancelled it. A variant without latent knowledge takes every agent to
+    /// know what the other wants.
+    ///
+    /// # Errors
+    /// [`MethodError`] if the inference fails.
+    pub fn believed_intents(
+        &self,
+        observed: &ObservedEvent,
+        steps: &[usize],
+        seed: u64,
+        tick: ProgressCallback<'_>,
+    ) -> MethodResult<Vec<[BTreeMap<Intent, f64>; AGENT_COUNT]>> {
+        let prepared = self.prepare(observed, seed);
+        let inference = self.infer(&prepared, seed, tick).map_err(MethodError::new)?;
+        Ok(inference.map(|inference| {
+            let prepared = with_our_minds(prepared);
+            (believed::believed(&prepared, &inference, steps), details(&prepared, &inference))
+        }))
+    }
+}
+
+/// An event with our own minds in place of published ones, which have no other senses than their own and
+/// infer no intents.
+fn with_our_minds(prepared: PreparedEvent) -> PreparedEvent {
+    match prepared.agents().minds.kind() {
+        MindKind::Phase => prepared,
+        MindKind::Published => prepared.with_agents(ImaginedAgents::of(MindKind::Phase)),
     }
 }
 

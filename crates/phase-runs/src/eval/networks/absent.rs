@@ -2,7 +2,7 @@
 
 use crate::error::RunError;
 use phase_eval::benchmark::Training;
-use phase_event::{Forecaster, Recogniser};
+use phase_event::{BeliefReader, Forecaster, Recogniser};
 use std::path::Path;
 
 /// Nothing: this program has no networks.
@@ -12,6 +12,14 @@ pub(crate) const fn recogniser(_: &str, _: Option<&Path>) -> Result<Option<Box<d
 
 /// Nothing: this program has no networks.
 pub(crate) const fn forecaster(_: &str, _: Option<&Path>) -> Result<Option<Box<dyn Forecaster>>, RunError> {
+    Ok(None)
+}
+
+/// Nothing: this program has no networks.
+pub(crate) const fn belief_reader(
+    _: &str,
+    _: Option<&Path>,
+) -> Result<Option<Box<dyn BeliefReader>>, RunError> {
     Ok(None)
 }
 

@@ -11,10 +11,13 @@ pub(crate) const RECOGNISING: [&str; 3] = ["two-level-lstm", "arg", "socialgnn"]
 /// Those for trajectories.
 pub(crate) const FORECASTING: [&str; 2] = ["social-lstm", "stgat"];
 
+/// That for beliefs.
+pub(crate) const READING: &str = "belief-network";
+
 /// Whether a method is a neural network.
 #[must_use]
 pub fn is_network(method: &str) -> bool {
-    RECOGNISING.iter().chain(&FORECASTING).any(|name| *name == method)
+    RECOGNISING.iter().chain(&FORECASTING).chain([&READING]).any(|name| *name == method)
 }
 
 #[cfg(not(feature = "networks"))]
@@ -23,6 +26,6 @@ mod absent;
 mod trained;
 
 #[cfg(not(feature = "networks"))]
-pub(crate) use absent::{forecaster, recogniser, training, training_of};
+pub(crate) use absent::{belief_reader, forecaster, recogniser, training, training_of};
 #[cfg(feature = "networks")]
-pub(crate) use trained::{forecaster, recogniser, training, training_of};
+pub(crate) use trained::{belief_reader, forecaster, recogniser, training, training_of};

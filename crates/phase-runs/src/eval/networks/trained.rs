@@ -1,9 +1,11 @@
 //! The networks themselves.
 
+use super::READING;
 use crate::error::RunError;
 use phase_baselines::{
     TrainedNetwork,
     arg::Arg,
+    belief_network::BeliefNetwork,
     intent_network::IntentNetwork,
     social_gnn::SocialGnn,
     social_lstm::SocialLstm,
@@ -15,7 +17,9 @@ use phase_eval::{
     benchmark::{Curve, Training},
     trivial::Chance,
 };
-use phase_event::{Forecaster, MethodError, MethodResult, ObservedEvent, ProgressCallback, Recogniser};
+use phase_event::{
+    BeliefReader, Forecaster, MethodError, MethodResult, ObservedEvent, ProgressCallback, Recogniser,
+};
 use phase_files::{
     checksum::{hexadecimal, sha256},
     json,
@@ -53,10 +57,19 @@ pub(crate) fn forecaster(
     })
 }
 
+/// The network for beliefs; see [`recogniser`].
+pub(crate) fn belief_reader(
+    name: &str,
+    weights: Option<&Path>,
+) -> Result<Option<Box<dyn BeliefReader>>, RunError> {
+    Ok(if name == READING { Some(Box::new(open::<BeliefNetwork>(weights)?)) } else { None })
+}
+
 /// The training record of the bundled weights; `None` if there is none of this name.
 pub(crate) fn training(name: &str) -> Result<Option<Training>, RunError> {
     let record = match name {
         "intent-network" => IntentNetwork::BUNDLED_RECORD,
+        READING => BeliefNetwork::BUNDLED_RECORD,
         "two-level-lstm" => TwoLevelLstm::BUNDLED_RECORD,
         "arg" => Arg::BUNDLED_RECORD,
         "socialgnn" => SocialGnn::BUNDLED_RECORD,

@@ -1,0 +1,147 @@
+//! Intents that agents without knowledge take each other to have, compared with their particles.
+
+use super::{Answers, answers::AnswerSource, beliefs::check_simulated, input::Event, methods, task::Task};
+use crate::error::RunError;
+use phase_eval::{
+    beliefs::asked_steps,
+    intents::{BelievedIntents, IntentEvent},
+};
+use phase_event::{MethodError, MethodResult, ObservedEvent, ProgressCallback, Recording, SimulationRecord};
+use phase_model::{AGENT_COUNT, AgentId, Attitude, Intent, Knowledge, Scene, json::FieldError};
+use phase_sim::SimulationSettings;
+use phase_simple::Simple;
+use serde_json::{Value, json};
+use std::path::Path;
+
+/// A method that tells what agents take each other to want.
+pub(crate) enum IntentReader {
+    /// SIMPLE; without latent knowledge it takes agents to know what the other wants.
+    Simple(Box<Simple>),
+    /// All intents are as likely as each other.
+    Even,
+}
+
+impl IntentReader {
+    fn settings(&self) -> Value {
+        match self {
+            Self::Simple(simple) => phase_event::Recogniser::settings(&**simple),
+            Self::Even => Value::Null,
+        }
+    }
+
+    fn ticks(&self) -> usize {
+        match self {
+            Self::Simple(simple) => phase_event::Recogniser::ticks(&**simple),
+            Self::Even => 1,
+        }
+    }
+
+    fn read(
+        &self,
+        observed: &ObservedEvent,
+        steps: &[usize],
+        seed: u64,
+        tick: ProgressCallback<'_>,
+    ) -> MethodResult<Vec<BelievedIntents>> {
+        match self {
+            Self::Simple(simple) => simple.believed_intents(observed, steps, seed, tick),
+            Self::Even => {
+                let objects = observed.object_sizes().len();
+                let believed = AgentId::ALL.map(|agent| {
+                    let intents = Intent::all(agent.other(), objects);
+                    let share = 1.0 / intents.len() as f64;
+                    intents.into_iter().map(|intent| (intent, share)).collect()
+                });
+                Ok(Some((vec![believed; steps.len()], Value::Null)))
+            }
+        }
+    }
+}
+
+/// The task.
+pub(crate) struct IntentTask {
+    answers: AnswerSource<IntentReader, Vec<BelievedIntents>>,
+}
+
+impl IntentTask {
+    /// The task for the answers of a method.
+    pub(crate) fn of(answers: &Answers) -> Result<Self, RunError> {
+        let file = |_: &Path| Err(RunError::Usage("--predictions: not of intents; give a --method".into()));
+        Ok(Self { answers: AnswerSource::of(answers, methods::intent_reader, file)? })
+    }
+}
+
+impl Task for IntentTask {
+    type Method = IntentReader;
+    type Answer = Vec<BelievedIntents>;
+    type ScoredEvent = IntentEvent;
+
+    const NAME: &'static str = "intents";
+
+    fn answers(&self) -> &AnswerSource<IntentReader, Vec<BelievedIntents>> {
+        &self.answers
+    }
+
+    fn settings(&self) -> Value {
+        self.answers.settings(|method| json!({ "method": method.settings() }))
+    }
+
+    fn ticks(&self) -> usize {
+        self.answers.method().map_or(1, IntentReader::ticks)
+    }
+
+    fn check(&self, event: &Event, file: &Path) -> Result<(), RunError> {
+        check_simulated(event, file)
+    }
+
+    fn ask(
+        &self,
+        event: &Event,
+        recording: &Recording,
+        seed: u64,
+        tick: ProgressCallback<'_>,
+    ) -> Result<Option<IntentEvent>, MethodError> {
+        let Some(simulation) = &recording.simulation else {
+            return Err(MethodError::new("was not simulated, so nobody knows its agents' beliefs"));
+        };
+        let observed = recording.observed().map_err(MethodError::new)?;
+        let steps = asked_steps(observed.steps());
+        let asked = self.answers.answer(event, |method| method.read(&observed, &steps, seed, tick))?;
+        let Some((answers, details, cpu_seconds)) = asked else { return Ok(None) };
+        let truth = truth(simulation, &steps).map_err(MethodError::new)?;
+        let questions = IntentEvent::questions(&steps, &truth, &answers, intents_of(&simulation.event.scene));
+        let questions = questions.map_err(MethodError::new)?;
+        Ok(Some(IntentEvent { id: event.id.clone(), questions, cpu_seconds, details }))
+    }
+}
+
+/// The intents in the particles of each agent after some steps; none of an agent that knows the other's goal.
+fn truth(simulation: &SimulationRecord, steps: &[usize]) -> Result<Vec<BelievedIntents>, FieldError> {
+    let event = &simulation.event;
+    let minds = SimulationSettings::read(&simulation.settings, "settings")?.minds;
+    let mut all: Vec<BelievedIntents> = steps.iter().map(|_| BelievedIntents::default()).collect();
+    for agent in AgentId::ALL {
+        if event.scene.agents[agent].awareness.knows == Knowledge::Goals {
+            continue;
+        }
+        let beliefs = phase_sim::beliefs(event, agent, &minds);
+        for (&step, believed) in steps.iter().zip(&mut all) {
+            let suppositions = &beliefs[step].suppositions;
+            for supposition in suppositions {
+                let share = 1.0 / suppositions.len() as f64;
+                *believed[agent].entry(supposition.intent).or_default() += share;
+            }
+        }
+    }
+    Ok(all)
+}
+
+/// The intents that the agents of a scene have.
+fn intents_of(scene: &Scene) -> [Intent; AGENT_COUNT] {
+    let (goals, attitudes) = (scene.goals(), scene.attitudes());
+    AgentId::ALL.map(|agent| {
+        let attitude = attitudes[agent];
+        let owner = if attitude == Attitude::Neutral { agent } else { agent.other() };
+        Intent { attitude, goal: goals[owner] }
+    })
+}
