@@ -57,8 +57,8 @@ impl RoomFeatures {
             let of_agent = OfAgent::new(agent, &map, &physics, rows, &states);
             for (other, entity) in others(agent, objects).enumerate() {
                 let mut last_seen = 0;
-                for row in 0..rows.len() {
-                    let sees = seen[row][agent].contains(entity);
+                for (row, seen) in seen.iter().enumerate() {
+                    let sees = seen[agent].contains(entity);
                     if sees {
                         last_seen = row;
                     }
