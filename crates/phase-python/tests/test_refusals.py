@@ -167,7 +167,7 @@ def test_names_that_are_misspelt(scene):
         (lambda: PhaseEnv("helpin"), kinds),
         (lambda: phase.sample_scene("helpin"), kinds.replace("'", '"')),
         (lambda: phase.sample_scene("chasing", variant="fech"), "variant must be one of"),
-        (lambda: PhaseEnv(scene, engine="rapier"), "engine must be one of world, forward, not 'rapier'"),
+        (lambda: PhaseEnv(scene, engine="rapier"), "engine must be one of world, forward, original, not 'rapier'"),
         (lambda: PhaseEnv(scene, partner="heuristics"), "partner must be one of phase, heuristic, random, still, or a policy"),
         (lambda: PhaseEnv(scene, observation="all"), "observation must be one of view, state, image, state_image"),
         (lambda: PhaseVectorEnv(2, scene, autoreset="never"), "autoreset must be one of next_step, same_step, disabled"),
