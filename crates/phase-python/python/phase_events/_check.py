@@ -70,9 +70,12 @@ def choice(name, value, options):
 def path_of(path):
     """A path as text, in which bytes that are none are kept as Python keeps them."""
     try:
-        return os.fsdecode(path)
+        name = os.fsdecode(path)
     except TypeError:
         raise PhaseError(f"a path is text or a pathlib.Path, not {path!r}") from None
+    if not name:
+        raise PhaseError("a path must not be empty")
+    return name
 
 
 def floats(name, values, shape):
