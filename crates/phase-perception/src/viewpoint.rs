@@ -55,6 +55,13 @@ impl<'a> Viewpoint<'a> {
         Self { physics, state, agent, apex, axis, discs }
     }
 
+    /// This viewpoint if an entity hides nothing, as it has gone somewhere else.
+    #[must_use]
+    pub fn without(mut self, entity: Entity) -> Self {
+        self.discs[entity.index()] = Disc::NOTHING;
+        self
+    }
+
     /// Position of the eye: the agent's centre of mass (u).
     #[must_use]
     pub fn apex(&self) -> Vec2 {

@@ -76,12 +76,15 @@ impl Hiding {
     }
 
     /// Whether agent 0 sees a part of the object's place, enlarged by a margin (u), from a point with a
-    /// heading.
+    /// heading. Only what stays where it is hides the place: walls and the other object. Agent 1 and the
+    /// object are somewhere on their way.
     fn sees_from(&self, from: Vec2, angle: f32, place: Vec2, spare: f32) -> bool {
         let mut state = self.state;
         let body = state.body_mut(Entity::Agent(AgentId::ZERO));
         (body.position, body.angle) = (from, angle);
-        let view = Viewpoint::new(&self.physics, &state, AgentId::ZERO);
+        let moving = [Entity::Agent(AgentId::ONE), self.object];
+        let view =
+            moving.into_iter().fold(Viewpoint::new(&self.physics, &state, AgentId::ZERO), Viewpoint::without);
         let reach = Vec2::splat(self.physics.radius(self.object) + spare);
         Cell::in_box(place - reach, place + reach).any(|cell| view.sees_cell(cell))
     }

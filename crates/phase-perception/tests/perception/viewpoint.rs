@@ -6,7 +6,7 @@ use crate::{
 };
 use core::f32::consts::{FRAC_PI_2, PI};
 use phase_model::{AgentId, Body, Segment, Size, State, Vec2};
-use phase_perception::{Cell, CellSet, field_of_view, footprint, sees};
+use phase_perception::{Cell, CellSet, Viewpoint, field_of_view, footprint, sees};
 use proptest::prelude::*;
 
 /// The arena from above: `o` for visible cells.
@@ -235,6 +235,17 @@ fn a_wall_through_the_eye_hides_nothing() {
     let seen = field_of_view(&physics(walls, Size::Small), &state, AgentId::ZERO);
     assert_eq!(seen, field_of_view(&physics(Vec::new(), Size::Small), &state, AgentId::ZERO));
     assert!(seen.len() > 100);
+}
+
+#[test]
+fn a_body_that_has_gone_hides_nothing() {
+    let physics = physics(Vec::new(), Size::Small);
+    let alone = looking((16.5, 6.5), 0.0);
+    let state = with(alone, OTHER, (16.5, 10.5));
+    let seen = |state: &State| field_of_view(&physics, state, AgentId::ZERO);
+    assert!(seen(&state).len() < seen(&alone).len());
+    let view = Viewpoint::new(&physics, &state, AgentId::ZERO).without(OTHER);
+    assert_eq!(Cell::all().filter(|&cell| view.sees_cell(cell)).collect::<CellSet>(), seen(&alone));
 }
 
 /// The angle whose tangent is x/y; the heading towards (x, y) is its negative.
