@@ -8,6 +8,7 @@ use crate::{
     shard::DatasetDescription,
     splits::Split,
 };
+use phase_evidence::Manner;
 use phase_files::checksum::FileEntry;
 use phase_model::{EventKind, Level};
 use serde_json::Value;
@@ -37,6 +38,8 @@ pub struct Overview {
     pub kinds: BTreeMap<EventKind, usize>,
     /// Number of agents that do not know the other's goal, by level of reasoning.
     pub levels: BTreeMap<Level, usize>,
+    /// Number of events that show each manner of helping, hindering or meeting.
+    pub manners: BTreeMap<Manner, usize>,
     /// Number of events in each part that is not empty.
     pub splits: BTreeMap<Split, usize>,
     /// Number of sets of events that differ in one social variable.
@@ -62,6 +65,7 @@ impl Overview {
             events: 0,
             kinds: BTreeMap::new(),
             levels: BTreeMap::new(),
+            manners: BTreeMap::new(),
             splits: BTreeMap::new(),
             sets: 0,
             videos: false,
@@ -83,6 +87,7 @@ impl Overview {
             events: 0,
             kinds: BTreeMap::new(),
             levels: BTreeMap::new(),
+            manners: BTreeMap::new(),
             splits: BTreeMap::new(),
             sets: manifest.sets.len(),
             videos: false,
@@ -98,6 +103,9 @@ impl Overview {
         *self.kinds.entry(entry.kind).or_default() += 1;
         for level in entry.agents.iter().filter_map(|agent| agent.level) {
             *self.levels.entry(level).or_default() += 1;
+        }
+        for &manner in &entry.manners {
+            *self.manners.entry(manner).or_default() += 1;
         }
         *self.splits.entry(entry.split()).or_default() += 1;
         self.videos |= entry.video.is_some();

@@ -1,7 +1,10 @@
 //! Evidence of a helper or hinderer that finds out what the other wants, from its thoughts.
 
+use crate::Track;
 use phase_event::{Event, Thought};
-use phase_model::{AgentId, Attitude, Level, Subgoal};
+use phase_model::{AgentId, Attitude, Entity, Goal, Level, Subgoal};
+use phase_perception::observed_set;
+use std::collections::BTreeMap;
 
 /// Least time of watching before the first act that is seen as such (steps; 2 s).
 const MIN_WATCHED: usize = 8;
@@ -9,6 +12,10 @@ const MIN_WATCHED: usize = 8;
 const MIN_MISTAKEN: usize = 4;
 /// Least time for which an agent acts on the right intent (steps; 2 s).
 const MIN_RIGHT: usize = 8;
+/// Least time of watching in which a goal is shown (steps; 1 s).
+const MIN_SHOWN: usize = 4;
+/// Least way that the other is seen to go in it (u).
+const MIN_SHOWN_WAY: f32 = 1.0;
 
 /// The steps of an event in which a helper or hinderer that has to find out the other's goal watches and
 /// acts.
@@ -25,6 +32,11 @@ pub struct Discovery {
     pub wrong: usize,
     /// Acts on the right intent.
     pub right: usize,
+    /// Acts while at least half of the particles have one wrong goal.
+    pub misled: usize,
+    /// From the beginning of the watching in which it learns the right goal to the first step at which at
+    /// least half of the particles have that; `None` if it acts before this step, or they never have it.
+    pub learning: Option<(usize, usize)>,
 }
 
 impl Discovery {
@@ -43,6 +55,12 @@ impl Discovery {
         let right = |thought: &Thought| thought.intents.first().is_some_and(|it| it.intent.goal == goal);
         let thoughts: Vec<&Thought> = event.steps.iter().map(|step| &step.thoughts[social]).collect();
         let watched = thoughts.iter().position(|it| acts(it)).unwrap_or(thoughts.len());
+        let misled = thoughts.iter().filter(|it| acts(it) && believes(it, |it| it != goal)).count();
+        let learnt = thoughts.iter().position(|thought| believes(thought, |it| it == goal));
+        let learning = learnt.and_then(|learnt| {
+            let begin = thoughts[..learnt].iter().rposition(|it| acts(it)).map_or(0, |act| act + 1);
+            (begin < learnt).then_some((begin, learnt))
+        });
         let of_acts: Vec<bool> = thoughts.into_iter().filter(|it| acts(it)).map(right).collect();
         let count = of_acts.iter().filter(|right| **right).count();
         Some(Self {
@@ -50,6 +68,8 @@ impl Discovery {
             mistaken: of_acts.iter().take_while(|right| !**right).count(),
             wrong: of_acts.len() - count,
             right: count,
+            misled,
+            learning,
         })
     }
 
@@ -70,4 +90,34 @@ impl Discovery {
     pub const fn corrects_itself(&self) -> bool {
         self.mistaken >= MIN_MISTAKEN && self.right >= MIN_RIGHT
     }
+
+    /// Whether it acts for a second while it is rather sure of a wrong goal, whatever it does then.
+    #[must_use]
+    pub const fn is_misled(&self) -> bool {
+        self.misled >= MIN_MISTAKEN
+    }
+
+    /// Whether the agent watches for a second until it learns the right goal, sees the other go 1 u
+    /// meanwhile, and then acts on that goal for two seconds.
+    #[must_use]
+    pub fn is_shown(&self, track: &Track, agent: AgentId) -> bool {
+        let Some((begin, learnt)) = self.learning else { return false };
+        let other = Entity::Agent(agent.other());
+        let sees = |step: &usize| {
+            let state = track.states.get(*step);
+            state.is_some_and(|state| observed_set(&track.physics, state, agent).contains(other))
+        };
+        let seen = (begin + 1..=learnt).filter(sees).map(|step| track.distance_in_step(other, step));
+        learnt - begin >= MIN_SHOWN && seen.sum::<f32>() >= MIN_SHOWN_WAY && self.right >= MIN_RIGHT
+    }
+}
+
+/// Whether at least half of the particles have one goal that satisfies a condition.
+fn believes(thought: &Thought, condition: impl Fn(Goal) -> bool) -> bool {
+    let mut shares: BTreeMap<Goal, usize> = BTreeMap::new();
+    for it in &thought.intents {
+        *shares.entry(it.intent.goal).or_default() += it.particles;
+    }
+    let all: usize = shares.values().sum();
+    shares.into_iter().any(|(goal, share)| 2 * share >= all && share > 0 && condition(goal))
 }

@@ -1,7 +1,8 @@
 //! Holding objects, alone and together, and carrying them.
 
 use crate::Track;
-use phase_model::{AGENT_COUNT, AgentId, Entity, ObjectId};
+use phase_model::{AGENT_COUNT, AgentId, Entity, ObjectId, State};
+use phase_perception::observed_set;
 use serde::{Deserialize, Serialize};
 
 /// A time during which one agent held one object without a break.
@@ -44,20 +45,31 @@ pub fn holds(track: &Track) -> Vec<HoldInterval> {
 /// Steps in which an agent held an object, and how far the object went in them.
 #[must_use]
 pub fn carried(track: &Track, agent: AgentId, object: ObjectId) -> CarryStatistics {
-    carrying(track, object, |holders| holders[agent])
+    carrying(track, object, |state| holders(state, object)[agent])
 }
 
 /// Steps in which both agents held the same object, and how far it went in them: it is carried together where
 /// it moves, and fought over where it does not.
 #[must_use]
 pub fn carried_together(track: &Track, object: ObjectId) -> CarryStatistics {
-    carrying(track, object, |holders| holders == [true; AGENT_COUNT])
+    carrying(track, object, |state| holders(state, object) == [true; AGENT_COUNT])
 }
 
 /// Steps in which an agent held an object and the other did not, and how far it went in them.
 #[must_use]
 pub fn carried_alone(track: &Track, agent: AgentId, object: ObjectId) -> CarryStatistics {
-    carrying(track, object, |holders| holders[agent] && !holders[agent.other()])
+    carrying(track, object, |state| holds_alone(state, agent, object))
+}
+
+/// Steps in which an agent held an object and the other perceived neither, and how far it went in them.
+#[must_use]
+pub fn carried_unseen(track: &Track, agent: AgentId, object: ObjectId) -> CarryStatistics {
+    carrying(track, object, |state| {
+        holds_alone(state, agent, object) && {
+            let seen = observed_set(&track.physics, state, agent.other());
+            !seen.contains(Entity::Agent(agent)) && !seen.contains(Entity::Object(object))
+        }
+    })
 }
 
 /// For how long an object was held in some way, and how far it went.
@@ -71,16 +83,11 @@ pub struct CarryStatistics {
     pub approach: [f32; 4],
 }
 
-fn carrying(
-    track: &Track,
-    object: ObjectId,
-    counts: impl Fn([bool; AGENT_COUNT]) -> bool,
-) -> CarryStatistics {
+fn carrying(track: &Track, object: ObjectId, counts: impl Fn(&State) -> bool) -> CarryStatistics {
     let mut carrying = CarryStatistics::default();
     let entity = Entity::Object(object);
     for (t, pair) in track.states.windows(2).enumerate() {
-        let holders = AgentId::ALL.map(|agent| pair[1].holds(agent, object));
-        if !counts(holders) {
+        if !counts(&pair[1]) {
             continue;
         }
         carrying.steps += 1;
@@ -91,4 +98,13 @@ fn carrying(
         }
     }
     carrying
+}
+
+fn holders(state: &State, object: ObjectId) -> [bool; AGENT_COUNT] {
+    AgentId::ALL.map(|agent| state.holds(agent, object))
+}
+
+fn holds_alone(state: &State, agent: AgentId, object: ObjectId) -> bool {
+    let holders = holders(state, object);
+    holders[agent] && !holders[agent.other()]
 }

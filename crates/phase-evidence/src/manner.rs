@@ -1,13 +1,18 @@
 //! In what manner an agent helped or hindered the other, or met it.
 
-use crate::{Discovery, GoalOutcome, Track, blocking, contact, holding, outcome};
+use crate::{
+    Discovery, GoalOutcome, Track, blocking, contact,
+    holding::{self, CarryStatistics},
+    outcome,
+};
 use phase_event::Event;
 use phase_model::{AgentId, Attitude, Entity, EventKind, Goal, ObjectId, Scene, State};
 use phase_navigation::Map;
 use serde::{Deserialize, Serialize};
 
 /// Behaviour that makes the kind of a social event visible. Judged by motion and grips, whatever was
-/// intended; only the last two, in which an agent finds out what the other wants, are judged by its thoughts.
+/// intended; only the last four, in which an agent finds out what the other wants, are judged by its
+/// thoughts.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Manner {
@@ -31,12 +36,18 @@ pub enum Manner {
     Hiding,
     /// The victim's goal has been reached and, through the hinderer, holds no longer.
     Undoing,
+    /// The hinderer carries the object off while the victim perceives neither of them.
+    HiddenHindering,
     /// Two with goals of their own pass the same place within two seconds.
     Crossing,
     /// The helper or hinderer does not know the other's goal and watches for two seconds before it acts.
     WatchingFirst,
     /// The helper or hinderer acts on a wrong idea of what the other wants, and then on the right one.
     Correcting,
+    /// The helper acts for a second while it is rather sure of a wrong goal, whatever it does then.
+    MistakenHelp,
+    /// The helper watches the other move and so learns what that wants, then acts on it.
+    LeadingByShowing,
 }
 
 /// Minimum duration for something to be seen (steps).
@@ -58,7 +69,7 @@ const MIN_CROSSING_PATH: f32 = 2.0;
 
 impl Manner {
     /// All manners, by kind of event.
-    pub const ALL: [Self; 13] = [
+    pub const ALL: [Self; 16] = [
         Self::Fetching,
         Self::HandingOver,
         Self::CarryingAlong,
@@ -69,9 +80,12 @@ impl Manner {
         Self::Dragging,
         Self::Hiding,
         Self::Undoing,
+        Self::HiddenHindering,
         Self::Crossing,
         Self::WatchingFirst,
         Self::Correcting,
+        Self::MistakenHelp,
+        Self::LeadingByShowing,
     ];
 
     /// The name used in files.
@@ -88,9 +102,12 @@ impl Manner {
             Self::Dragging => "dragging",
             Self::Hiding => "hiding",
             Self::Undoing => "undoing",
+            Self::HiddenHindering => "hidden-hindering",
             Self::Crossing => "crossing",
             Self::WatchingFirst => "watching-first",
             Self::Correcting => "correcting",
+            Self::MistakenHelp => "mistaken-help",
+            Self::LeadingByShowing => "leading-by-showing",
         }
     }
 
@@ -102,6 +119,11 @@ impl Manner {
         if let Some(discovery) = Discovery::of(event) {
             manners.extend(discovery.watches_first().then_some(Self::WatchingFirst));
             manners.extend(discovery.corrects_itself().then_some(Self::Correcting));
+            if event.scene.kind == EventKind::Helping {
+                manners.extend(discovery.is_misled().then_some(Self::MistakenHelp));
+                let helper = social_agent(&event.scene);
+                manners.extend(discovery.is_shown(track, helper).then_some(Self::LeadingByShowing));
+            }
         }
         manners
     }
@@ -135,8 +157,11 @@ impl Manner {
             Self::Dragging => about(|track, _, object| carried_by_both(track, object)),
             Self::Hiding => object.is_some_and(|it| hidden(track, social, it, goal)),
             Self::Undoing => undone(track, social, goal),
+            Self::HiddenHindering => {
+                object.is_some_and(|it| is_off(holding::carried_unseen(track, social, it), goal, 0.0))
+            }
             Self::Crossing => crossed(track),
-            Self::WatchingFirst | Self::Correcting => false,
+            Self::WatchingFirst | Self::Correcting | Self::MistakenHelp | Self::LeadingByShowing => false,
         }
     }
 
@@ -144,12 +169,19 @@ impl Manner {
     #[must_use]
     pub const fn kind(self) -> Option<EventKind> {
         Some(match self {
-            Self::Fetching | Self::HandingOver | Self::CarryingAlong | Self::Clearing | Self::MakingWay => {
-                EventKind::Helping
-            }
-            Self::Blocking | Self::Taking | Self::Dragging | Self::Hiding | Self::Undoing => {
-                EventKind::Hindering
-            }
+            Self::Fetching
+            | Self::HandingOver
+            | Self::CarryingAlong
+            | Self::Clearing
+            | Self::MakingWay
+            | Self::MistakenHelp
+            | Self::LeadingByShowing => EventKind::Helping,
+            Self::Blocking
+            | Self::Taking
+            | Self::Dragging
+            | Self::Hiding
+            | Self::Undoing
+            | Self::HiddenHindering => EventKind::Hindering,
             Self::Crossing => EventKind::Independent,
             Self::WatchingFirst | Self::Correcting => return None,
         })
@@ -245,19 +277,18 @@ pub(crate) fn in_the_way(scene: &Scene, track: &Track, blocker: AgentId, goal: G
 fn taken(track: &Track, hinderer: AgentId, object: ObjectId, goal: Goal) -> bool {
     let Some(&first) = touching(track, hinderer.other(), object).get(MIN_STEPS) else { return false };
     let later = Track { physics: track.physics.clone(), states: track.states[first..].to_vec() };
-    carried_away(&later, hinderer, object, goal, MIN_TAKEN)
+    is_off(holding::carried(&later, hinderer, object), goal, MIN_TAKEN)
 }
 
 /// Before the victim has touched the object, the hinderer carries it off, and not towards the victim's
 /// landmark.
 fn hidden(track: &Track, hinderer: AgentId, object: ObjectId, goal: Goal) -> bool {
     let first = touching(track, hinderer.other(), object).first().copied().unwrap_or(track.steps());
-    carried_away(&track.until(first), hinderer, object, goal, 0.0)
+    is_off(holding::carried(&track.until(first), hinderer, object), goal, 0.0)
 }
 
-/// An agent carries an object clearly, and by so much away from the goal's landmark (u).
-fn carried_away(track: &Track, agent: AgentId, object: ObjectId, goal: Goal, away: f32) -> bool {
-    let carried = holding::carried(track, agent, object);
+/// An object is carried clearly, and by so much away from the goal's landmark (u).
+fn is_off(carried: CarryStatistics, goal: Goal, away: f32) -> bool {
     let closer = goal.landmark().map_or(0.0, |landmark| carried.approach[landmark.index()]);
     carried.steps >= MIN_STEPS && carried.distance >= MIN_FETCHED && closer <= -away
 }

@@ -259,8 +259,11 @@ pub const fn manner_in_words(manner: Manner) -> &'static str {
         Manner::Dragging => "both pull at the object",
         Manner::Hiding => "the hinderer carries the object off before the other has touched it",
         Manner::Undoing => "the hinderer undoes what the other has achieved",
+        Manner::HiddenHindering => "the hinderer carries the object off while the other does not see it",
         Manner::Crossing => "the two cross each other's way",
         Manner::WatchingFirst => "one watches until it knows what the other wants",
         Manner::Correcting => "one is wrong about what the other wants at first, and corrects itself",
+        Manner::MistakenHelp => "the helper is wrong for a while about what the other wants",
+        Manner::LeadingByShowing => "by moving, the other shows the helper what it wants",
     }
 }

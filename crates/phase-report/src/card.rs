@@ -8,6 +8,7 @@ use phase_dataset::{
     parquet::{self, FOLDER},
     splits::Split,
 };
+use phase_evidence::{Manner, narrative::manner_in_words};
 use phase_model::{EventKind, Level, words};
 
 const PAGE: &str = "| `index.html` | opens in a browser, offline, and shows every video with its labels |\n";
@@ -141,7 +142,7 @@ fn splits(overview: &Overview) -> String {
     format!("| split | events |\n|---|---|\n{}\n", overview.splits.iter().map(line).collect::<String>())
 }
 
-/// The agents that do not know the other's goal, if there are any.
+/// The agents that do not know the other's goal, if there are any, and how the events come about.
 fn knowledge(overview: &Overview) -> String {
     if overview.levels.is_empty() {
         return String::new();
@@ -157,6 +158,16 @@ fn knowledge(overview: &Overview) -> String {
     format!(
         "| level of reasoning | agents that do not know the other's goal | reasoning |\n|---|---|---|\n{}\n",
         overview.levels.iter().map(line).collect::<String>()
+    ) + &manners(overview)
+}
+
+fn manners(overview: &Overview) -> String {
+    let line = |(&manner, count): (&Manner, &usize)| {
+        format!("| {} | {count} | {} |\n", manner.name(), manner_in_words(manner))
+    };
+    format!(
+        "| manner | events that show it | evidence |\n|---|---|---|\n{}\n",
+        overview.manners.iter().map(line).collect::<String>()
     )
 }
 

@@ -126,9 +126,11 @@ impl Motions {
             let scene = &recording.scene;
             let kind = scene.kind.name();
             let variant = entry.and_then(|entry| entry.variant).map(|it| format!("{kind}, {}", it.name()));
+            // Grips tell how an object is carried; motion and clarity are measured without them.
+            let with_grips = crate::source::track(&recording);
             let manners = match &recording.simulation {
-                Some(simulation) => Manner::of_event(&simulation.event, &track),
-                None => Manner::shown(scene, &track),
+                Some(simulation) => Manner::of_event(&simulation.event, &with_grips),
+                None => Manner::shown(scene, &with_grips),
             };
             let manners = manners.into_iter().map(|manner| format!("{kind}, seen: {}", manner.name()));
             let groups = iter::once(kind.to_owned()).chain(variant).chain(manners).collect();

@@ -7,16 +7,19 @@ use phase_evidence::{
     selection::{RejectionReason, check_discovery},
 };
 use phase_model::{
-    Action, AgentId, Attitude, Awareness, Entity, EventKind, Goal, Intent, Level, Literal, Predicate,
-    PredicateTarget, State, Subgoal,
+    Action, AgentId, Attitude, Awareness, Body, Entity, EventKind, Goal, Intent, Level, Literal, Predicate,
+    PredicateTarget, State, Subgoal, Vec2,
 };
 
-/// A step of agent 0: it watches, or pursues a plan for a goal that it supposes.
+/// A step of agent 0: it watches, perhaps with a wrong idea, or pursues a plan for a goal that it supposes.
 #[derive(Clone, Copy)]
 enum Does {
     Watch,
+    Suppose(Goal),
     LookForOther,
     Act(Goal),
+    /// It acts on a wrong goal that fewer than half of its particles have.
+    Try,
 }
 
 fn thought(does: Does) -> Thought {
@@ -27,7 +30,13 @@ fn thought(does: Does) -> Thought {
         |goal| BelievedIntent { intent: Intent { attitude: Attitude::Neutral, goal }, particles: 50 };
     match does {
         Does::Watch => Thought { intents: vec![intent(THING)], ..Thought::IDLE },
+        Does::Suppose(goal) => Thought { intents: vec![intent(goal)], ..Thought::IDLE },
         Does::LookForOther => Thought { subgoal, intents: vec![intent(THING)], ..Thought::IDLE },
+        Does::Try => {
+            let of = |goal, particles| BelievedIntent { particles, ..intent(goal) };
+            let intents = vec![of(place(1, 0), 20), of(THING, 15), of(place(1, 1), 15)];
+            Thought { subgoal, plan: vec![subgoal], intents, ..Thought::IDLE }
+        }
         Does::Act(goal) => {
             Thought { subgoal, plan: vec![subgoal], intents: vec![intent(goal)], ..Thought::IDLE }
         }
@@ -55,10 +64,18 @@ fn acts_count_as_right_only_for_the_others_goal() {
     let seen =
         helping(Level::One, &[(Does::Watch, 9), (Does::LookForOther, 3), (wrong, 5), (Does::Act(THING), 10)]);
     let discovery = Discovery::of(&seen).expect("an agent finds out");
-    assert_eq!(discovery, Discovery { watched: 12, mistaken: 5, wrong: 5, right: 10 });
+    assert_eq!(
+        discovery,
+        Discovery { watched: 12, mistaken: 5, wrong: 5, right: 10, misled: 5, learning: None }
+    );
     assert_eq!(check_discovery(&seen), Ok(()));
     let track = Track::of_event(&seen);
-    assert_eq!(Manner::of_event(&seen, &track), [Manner::WatchingFirst, Manner::Correcting]);
+    let manners = Manner::of_event(&seen, &track);
+    assert_eq!(manners, [Manner::WatchingFirst, Manner::Correcting, Manner::MistakenHelp]);
+    let ends_wrong = helping(Level::One, &[(Does::Act(THING), 20), (wrong, 4)]);
+    assert_eq!(Manner::of_event(&ends_wrong, &track), [Manner::MistakenHelp]);
+    let doubts = helping(Level::One, &[(Does::Try, 12), (Does::Act(THING), 20)]);
+    assert_eq!(Manner::of_event(&doubts, &track), [Manner::Correcting]);
 
     let refused: [&[(Does, usize)]; 3] = [
         &[(Does::Watch, 40)],
@@ -70,6 +87,38 @@ fn acts_count_as_right_only_for_the_others_goal() {
     }
     let at_once = helping(Level::One, &[(Does::Watch, 7), (wrong, 3), (Does::Act(THING), 20)]);
     assert_eq!(Manner::of_event(&at_once, &track), []);
+}
+
+/// Agent 1 walks away from agent 0, which faces it or looks away, and learns the goal in step 6.
+fn shows(looks_on: bool, act: Goal) -> Vec<Manner> {
+    let doubtful = Does::Suppose(place(1, 0));
+    let mut seen = helping(Level::One, &[(doubtful, 6), (Does::Watch, 1), (Does::Act(act), 20)]);
+    let angle = if looks_on { 0.0 } else { core::f32::consts::PI };
+    for (t, step) in seen.steps.iter_mut().enumerate() {
+        let up = 12.0 + 0.25 * t as f32;
+        for state in &mut step.substeps {
+            *state.body_mut(Entity::Agent(AgentId::ZERO)) = Body::at_rest(Vec2::new(16.0, 4.0), angle);
+            *state.body_mut(Entity::Agent(AgentId::ONE)) = Body::at_rest(Vec2::new(16.0, up), 0.0);
+        }
+    }
+    Manner::of_event(&seen, &Track::of_event(&seen))
+}
+
+#[test]
+fn a_goal_is_shown_by_motion_that_the_helper_sees_before_it_acts() {
+    assert_eq!(shows(true, THING), [Manner::LeadingByShowing]);
+    assert_eq!(shows(false, THING), []);
+    // What it has learnt is not what it acts on.
+    assert_eq!(shows(true, place(1, 0)), [Manner::MistakenHelp]);
+    let wrong = Does::Suppose(place(1, 0));
+    let learning =
+        |does: &[(Does, usize)]| Discovery::of(&helping(Level::One, does)).and_then(|it| it.learning);
+    let act = (Does::Act(place(1, 0)), 2);
+    assert_eq!(learning(&[(wrong, 3), act, (wrong, 4), (Does::Act(THING), 20)]), Some((5, 9)));
+    // It acts until it has learnt the goal, knows it from the first step on, or never learns it.
+    assert_eq!(learning(&[(wrong, 3), act, (Does::Act(THING), 20)]), None);
+    assert_eq!(learning(&[(Does::Act(THING), 20)]), None);
+    assert_eq!(learning(&[(wrong, 20)]), None);
 }
 
 #[test]

@@ -4,8 +4,9 @@ use crate::{
     selection::{STEPS, THING, event, facing, fetch, on_way, place, scene},
     support::Move,
 };
+use core::f32::consts::{FRAC_PI_2, PI};
 use phase_evidence::{Manner, Track};
-use phase_model::{Attitude, EventKind, Goal};
+use phase_model::{AgentId, Attitude, Entity, EventKind, Goal, ObjectId};
 
 fn helping(goal: Goal, track: &Track) -> Vec<Manner> {
     Manner::shown(&scene(EventKind::Helping, [goal; 2], Attitude::Help), track)
@@ -85,12 +86,12 @@ fn standing_in_the_others_way_and_meeting_it_is_blocking() {
     assert_eq!(hindering(place(1, 0), &event(elsewhere)), []);
 }
 
-/// Agent 0 carries the object away from its landmark, from (18, 4.5) to (10, 4.5).
+/// Agent 0 carries the object away from its landmark, from (18, 4.5) to (10, 4.5), and agent 1 looks on.
 fn carries_off(t: usize) -> Move {
     let object = on_way(t, (18.0, 4.5), (10.0, 4.5), 10..30);
     let held = (10..30).contains(&t).then_some(0);
     Move {
-        agents: [facing((object.0 - 2.0, 4.5)), (8.0, 18.0, 0.0)],
+        agents: [facing((object.0 - 2.0, 4.5)), (8.0, 18.0, PI)],
         objects: vec![object],
         held: [held, None],
     }
@@ -101,7 +102,7 @@ fn what_is_carried_off_was_taken_or_is_hidden() {
     assert_eq!(hindering(THING, &event(carries_off)), [Manner::Hiding]);
     // The victim had it in its hands first.
     let taken = |t| Move {
-        agents: [carries_off(t).agents[0], (20.0, 4.5, 0.0)],
+        agents: [carries_off(t).agents[0], (20.0, 4.5, FRAC_PI_2)],
         held: [carries_off(t).held[0], (t < 8).then_some(0)],
         ..carries_off(t)
     };
@@ -110,6 +111,31 @@ fn what_is_carried_off_was_taken_or_is_hidden() {
     assert_eq!(hindering(THING, &event(fetch)), []);
     let tug = |t| Move { held: [carries_off(t).held[0]; 2], ..carries_off(t) };
     assert!(hindering(THING, &event(tug)).contains(&Manner::Dragging));
+}
+
+#[test]
+fn hindering_is_hidden_while_the_victim_perceives_neither_hinderer_nor_object() {
+    // The victim looks away.
+    let unseen = |t| Move { agents: [carries_off(t).agents[0], (8.0, 18.0, 0.0)], ..carries_off(t) };
+    assert_eq!(hindering(THING, &event(unseen)), [Manner::Hiding, Manner::HiddenHindering]);
+    // It turns when the object has gone 2 u.
+    let turns = |t| if t < 15 { unseen(t) } else { carries_off(t) };
+    assert_eq!(hindering(THING, &event(turns)), [Manner::Hiding]);
+    // It sees nothing, but feels the object.
+    let felt = |t| {
+        let Move { agents, objects, held } = unseen(t);
+        let [(x, y)] = objects[..] else { unreachable!("there is one object") };
+        Move { agents: [agents[0], (x, y + 2.0, 0.0)], objects, held }
+    };
+    let mut track = event(felt);
+    let [thing, victim] = [Entity::Object(ObjectId::ZERO), Entity::Agent(AgentId::ONE)];
+    track.states.iter_mut().for_each(|state| state.contacts.insert(thing, victim));
+    assert!(!hindering(THING, &track).contains(&Manner::HiddenHindering));
+    // Towards the landmark it hinders nobody.
+    assert_eq!(
+        hindering(THING, &event(|t| Move { agents: [fetch(t).agents[0], (8.0, 18.0, 0.0)], ..fetch(t) })),
+        []
+    );
 }
 
 #[test]

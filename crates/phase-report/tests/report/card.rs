@@ -1,6 +1,7 @@
 //! The card that people and loaders read.
 
 use phase_dataset::{manifest::Manifest, overview::Overview, parquet::descriptions, splits::Split};
+use phase_evidence::Manner;
 use phase_report::card;
 use std::collections::BTreeSet;
 
@@ -26,10 +27,16 @@ fn the_card_names_command_kinds_and_licence() {
 #[test]
 fn agents_that_do_not_know_the_others_goal_are_counted() {
     let mut manifest = example();
-    assert!(!card(&manifest, "", "").contains("level of reasoning"));
+    manifest.events[0].manners = vec![Manner::MistakenHelp];
+    let text = card(&manifest, "", "");
+    assert!(!text.contains("level of reasoning") && !text.contains("mistaken-help"));
     manifest.events[0].agents.iter_mut().for_each(|agent| agent.level = Some(phase_model::Level::Two));
+    let text = card(&manifest, "", "");
+    assert!(text.contains("\n| 2 | 2 | infers it, and assumes that the other infers, too |\n"));
     assert!(
-        card(&manifest, "", "").contains("\n| 2 | 2 | infers it, and assumes that the other infers, too |\n")
+        text.contains(
+            "\n| mistaken-help | 1 | the helper is wrong for a while about what the other wants |\n"
+        )
     );
 }
 
