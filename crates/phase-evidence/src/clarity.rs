@@ -2,7 +2,7 @@
 
 use crate::{Track, contact, outcome, rest};
 use core::ops::Range;
-use phase_model::{AGENT_COUNT, AgentId, Entity, Goal, ObjectId, Scene, Sign};
+use phase_model::{AGENT_COUNT, AgentId, Entity, Goal, ObjectId, Scene, Sign, State};
 
 /// An object that both agents are at gets on where it leaves its place by this distance (u).
 const PROGRESS: f32 = 1.0;
@@ -38,6 +38,10 @@ pub struct Clarity {
     pub at_object: [bool; AGENT_COUNT],
     /// Whether a body goes 1 u or more in the last third.
     pub changes_late: bool,
+    /// Duration of the rest at the end (steps): every body stays within 0.3 u of where it ends.
+    pub rest_at_end: usize,
+    /// Duration for which each agent [tries](steps_trying) (steps).
+    pub trying: [usize; AGENT_COUNT],
 }
 
 impl Clarity {
@@ -68,8 +72,26 @@ impl Clarity {
             remaining,
             at_object,
             changes_late: track.physics.entities().any(moves),
+            rest_at_end: rest_at_end(track),
+            trying: AgentId::ALL.map(|agent| steps_trying(track, agent, scene.agents[agent].goal)),
         })
     }
+}
+
+/// Number of states in which an agent is seen to try, by outlines: it is at the object that it wants
+/// somewhere, or, if it wants to be somewhere itself, at any object; or it is at the other agent.
+#[must_use]
+pub fn steps_trying(track: &Track, agent: AgentId, goal: Goal) -> usize {
+    let is_wanted = |object: &ObjectId| match goal.subject() {
+        Entity::Object(wanted) => wanted == *object,
+        Entity::Agent(_) => true,
+    };
+    let objects = track.physics.objects().filter(is_wanted).map(Entity::Object);
+    let others: Vec<Entity> = objects.chain([Entity::Agent(agent.other())]).collect();
+    let is_at = |state: &&State| {
+        others.iter().any(|&other| contact::near(&track.physics, state, Entity::Agent(agent), other))
+    };
+    track.states.iter().filter(is_at).count()
 }
 
 /// The steps of each knot, in order of time: the first of them, and the one after the last.
@@ -105,6 +127,14 @@ fn is_reached(scene: &Scene, track: &Track, t: usize) -> bool {
 /// Whether an agent touches an object at a step, as far as outlines show.
 fn is_at(track: &Track, t: usize, agent: AgentId, object: ObjectId) -> bool {
     contact::near(&track.physics, &track.states[t], Entity::Agent(agent), Entity::Object(object))
+}
+
+fn rest_at_end(track: &Track) -> usize {
+    let Some(last) = track.states.last() else { return 0 };
+    let is_there = |state: &&State| {
+        track.physics.entities().all(|it| state.position(it).distance(last.position(it)) < TREMBLING)
+    };
+    track.states.iter().rev().take_while(is_there).count() - 1
 }
 
 fn spinning(track: &Track) -> f64 {

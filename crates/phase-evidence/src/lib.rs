@@ -1,10 +1,11 @@
 //! Evidence in an event, judged from its trajectory.
 //!
 //! A [`Track`] is one state for each step. From it [`GoalOutcome`] tells whether and when a goal was reached,
-//! [`mod@holding`] which agent held what and when, [`mod@contact`] which entities touched, [`mod@blocking`]
-//! which agent obstructed the other, [`mod@pursuit`] which agent pursued the other, [`mod@exploration`] which
-//! region an agent explored first, [`mod@search`] where it looks for what was moved, [`mod@motion`] how fast
-//! and how far an agent moved and [`mod@rest`] how quietly an event ended.
+//! [`mod@holding`] which agent held what and when, [`mod@contact`] which entities touched, [`mod@contest`]
+//! how far each of two competitors got an object its way, [`mod@blocking`] which agent obstructed the other,
+//! [`mod@pursuit`] which agent pursued the other, [`mod@exploration`] which region an agent explored first,
+//! [`mod@search`] where it looks for what was moved, [`mod@motion`] how fast and how far an agent moved and
+//! [`mod@rest`] how quietly an event ended.
 //! [`Parting`](parting::Parting) tells where two events that begin alike part, and [`Effect`] compares an
 //! event with the same one in which an agent did nothing, which distinguishes help from mere presence.
 //! [`mod@selection`] checks whether an event shows its label: whether the intended social event is visible in
@@ -46,6 +47,7 @@
 pub mod blocking;
 pub mod clarity;
 pub mod contact;
+pub mod contest;
 pub mod discovery;
 pub mod effect;
 pub mod exploration;

@@ -16,7 +16,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Manner {
-    /// The helper brings the object; the helpee may try, but does not carry it.
+    /// The helper brings the object; the helpee may lend a hand.
     Fetching,
     /// The helper brings the object part of the way, and the helpee takes it on.
     HandingOver,
@@ -204,10 +204,7 @@ pub(crate) const fn goal_object(goal: Goal) -> Option<ObjectId> {
 
 fn fetched(track: &Track, helper: AgentId, object: ObjectId) -> bool {
     let alone = holding::carried_alone(track, helper, object);
-    alone.steps >= MIN_STEPS
-        && alone.distance >= MIN_FETCHED
-        && !carried_far(track, helper.other(), object)
-        && !carried_by_both(track, object)
+    alone.steps >= MIN_STEPS && alone.distance >= MIN_FETCHED
 }
 
 fn handed_over(track: &Track, helper: AgentId, object: ObjectId) -> bool {

@@ -130,8 +130,9 @@ impl Planner {
     }
 
     /// A neutral agent plans with its own actions. It relies on the other only if both have the same goal and
-    /// it cannot achieve it alone. As long as the other does not hold the goal's object, an agent that would
-    /// have no part in their plan tries alone, and so shows what it wants.
+    /// it cannot achieve it alone. An agent that would have no part in their plan tries alone, and so shows
+    /// what it wants: it waits where it cannot go on, lends a hand where it can, and stays out of the way of
+    /// the other that has the object.
     fn pursue(&self, problem: &PlanningProblem<'_>, own: Goal, other: Goal, observed: BodySet) -> Plan {
         if let Some(plan) = self.finish(problem, own, observed) {
             return plan;
@@ -149,25 +150,25 @@ impl Planner {
             Some(plan) if own != other || plan.cost < self.parameters.impassable => {
                 to_subgoals(&task, &plan, self.agent)
             }
-            Some(plan) if !self.is_helped(problem, own) => {
+            Some(plan) if matches!(own.subject(), Entity::Object(_)) => {
                 let joint = self.joint_plan(problem, own, self.agent);
-                if joint.subgoals.is_empty() {
-                    let trying = to_subgoals(&task, &plan, self.agent);
-                    return Plan { distance: joint.distance, ..trying };
+                if !joint.subgoals.is_empty() {
+                    return joint;
                 }
-                joint
+                let yielding =
+                    self.is_helped(problem, own).then(|| yielding::subgoal(problem, self.agent, own));
+                let trying = || to_subgoals(&task, &plan, self.agent).subgoals;
+                let subgoals = yielding.flatten().map_or_else(trying, |subgoal| vec![subgoal]);
+                Plan { subgoals, distance: joint.distance }
             }
             _ if own == other => self.cooperate(problem, own, self.agent, observed),
             _ => Plan::STAY,
         }
     }
 
-    /// Whether an agent cannot show that it wants a goal, or the other is at it: it has the object in hand.
+    /// Whether the other has the object of a goal in hand.
     fn is_helped(&self, problem: &PlanningProblem<'_>, goal: Goal) -> bool {
-        match goal.subject() {
-            Entity::Object(object) => problem.state.holds(self.agent.other(), object),
-            Entity::Agent(_) => true,
-        }
+        matches!(goal.subject(), Entity::Object(object) if problem.state.holds(self.agent.other(), object))
     }
 
     /// The agent's part of the cheapest joint plan for a goal of `owner`, whom the other agent helps. Of two

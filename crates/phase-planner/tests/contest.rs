@@ -52,8 +52,8 @@ fn an_object_that_is_ceded_is_not_touched() {
     assert_eq!(ceding(&together, 0), together.words(0));
 }
 
-/// An agent that has no part in the best plan, because the helper serves it alone, tries for itself until
-/// the helper has the object in hand.
+/// An agent that has no part in the best plan, because the helper serves it alone, tries for itself, and lends
+/// a hand where it is not in the way.
 #[test]
 fn who_is_helped_shows_what_it_wants_first() {
     let setup = Setup {
@@ -63,5 +63,8 @@ fn who_is_helped_shows_what_it_wants_first() {
         attitudes: [Attitude::Help, Attitude::Neutral],
         ..plain()
     };
-    assert_eq!(setup.words(1)[..2], ["Close(agent 1, object 0)", "Attach(agent 1, object 0)"]);
+    let tries = ["Close(agent 1, object 0)", "Attach(agent 1, object 0)"];
+    assert_eq!(setup.words(1)[..2], tries);
+    let helped = Setup { holds: [Some(0), None], ..setup };
+    assert_eq!(helped.words(1)[..2], tries);
 }

@@ -38,7 +38,7 @@ const MEASURES: [Measure; 11] = [
 ];
 
 /// Measures of clarity, in the order of their columns, which follow those of motion.
-const CLARITY: [Measure; 8] = [
+const CLARITY: [Measure; 11] = [
     ("knotted_share", |it| it.clarity.knotted),
     ("knot_at_end_steps", |it| it.clarity.knot_at_end as f64),
     ("spinning_share", |it| it.clarity.spinning),
@@ -47,6 +47,9 @@ const CLARITY: [Measure; 8] = [
     ("remaining_1_u", |it| it.clarity.remaining[1]),
     ("at_object_end", |it| it.clarity.at_object.map(|at| f64::from(u8::from(at))).iter().sum()),
     ("changes_late", |it| f64::from(u8::from(it.clarity.changes_late))),
+    ("rest_at_end_steps", |it| it.clarity.rest_at_end as f64),
+    ("trying_0_steps", |it| it.clarity.trying[0] as f64),
+    ("trying_1_steps", |it| it.clarity.trying[1] as f64),
 ];
 
 /// The kind of file that `--results` takes.

@@ -13,7 +13,12 @@ fn clarity_is_told_by_kind_and_beside_it_what_people_would_report() {
     assert!(plain.contains("| clarity: mean | events | knotted_share |"), "{plain}");
     assert!(!plain.contains("label reported"));
     let table = fs::read_to_string(path.join("figures/motion.csv")).expect("a table");
-    assert!(table.lines().next().is_some_and(|head| head.ends_with(",changes_late")), "{table}");
+    assert!(
+        table.lines().next().is_some_and(
+            |head| head.ends_with(",changes_late,rest_at_end_steps,trying_0_steps,trying_1_steps")
+        ),
+        "{table}"
+    );
 
     succeed(path, &["eval", "goals", "--method", "cue", "--events", "events.json", "--out", "cue"]);
     let stats = ["stats", "events.json", "--results", "cue/results.json"];

@@ -9,29 +9,31 @@ use super::{
     kinds,
 };
 use crate::{
-    Clarity, GoalOutcome, Manner, Track, contact, holding, manner, outcome,
+    Clarity, GoalOutcome, Manner, Track, clarity, contact, contest, holding, manner,
     pursuit::Pursuit,
     rest,
     search::{self, FirstLook},
 };
 use core::ops::Range;
-use phase_model::{
-    AgentId, AgentSpec, Entity, EventKind, Goal, ObjectId, Relation, Scene, Sight, Sign, State,
-};
+use phase_model::{AgentId, AgentSpec, Entity, EventKind, Goal, ObjectId, Scene, Sight, Sign, State};
 
 /// Least approach of an agent to its goal (u).
 const MIN_PROGRESS: f32 = 3.0;
 /// Maximum share of an event in which nothing moves, in percent.
 const MAX_STILL_PERCENT: usize = 75;
-/// Maximum time for which every body may stay in its place before both agents are done (steps; 6 s).
+/// Maximum time for which every body may stay in its place (steps; 6 s). Recordings end 2 s after the goals
+/// have been reached.
 const MAX_STANDSTILL: usize = 24;
 /// A body that is nearer than this to where it was stays in its place (u): agents that push each other
 /// tremble.
 const MAX_STAY: f32 = 0.3;
 /// Greatest share of an event in knots. Of 50 recordings with a knot or without, 5 have more.
 const MAX_KNOTTED: f64 = 0.25;
-/// Shortest time for which a victim tries to get at its object (steps; 2 s).
+/// Shortest time for which an agent that is helped or hindered tries (steps; 2 s). In each of ten recordings
+/// of helping it is that or longer.
 const MIN_ATTEMPT: usize = 8;
+/// Least distance by which each of two competitors gets the object its way (u): a fourth of the arena's side.
+const MIN_FAVOUR: f32 = 5.0;
 /// Longest time for which a hinderer may, in all, carry an object to where the other wants it (steps).
 const MAX_SERVICE: usize = 6;
 /// Approach in a step that is seen as one (u).
@@ -46,7 +48,7 @@ pub(super) fn judge(
     track: &Track,
     manner: Option<Manner>,
 ) -> Result<Option<Counterfactual>, RejectionReason> {
-    lively(scene, track)?;
+    lively(track)?;
     untied(scene, track)?;
     let counterfactual = match scene.kind {
         EventKind::Helping => Some(helping(scene, track)?),
@@ -57,7 +59,7 @@ pub(super) fn judge(
                 searching(scene, track, seeker)?;
                 None
             }
-            None => Some(kinds::competing(scene, track)?),
+            None => Some(competing(scene, track)?),
         },
         EventKind::Collaborating => {
             collaborating(scene, track)?;
@@ -73,15 +75,10 @@ pub(super) fn judge(
     Ok(counterfactual.map(|it| Counterfactual { cut: true, ..it }))
 }
 
-/// Something moves in enough of the steps, and nobody is stuck: for 6 s everything may stay in its place only
-/// if both are done, which adversaries never are.
-fn lively(scene: &Scene, track: &Track) -> Result<(), RejectionReason> {
-    let still = (1..track.states.len()).filter(|&step| rest::is_still(track, step)).count();
-    require(100 * still <= MAX_STILL_PERCENT * track.steps(), RejectionReason::Lifeless)?;
-    let done = done_at(scene, track).unwrap_or(usize::MAX);
-    let stuck = |from: usize| from < done && stays(track, from..from + MAX_STANDSTILL + 1);
-    let windows = 0..track.states.len().saturating_sub(MAX_STANDSTILL);
-    require(!windows.into_iter().any(stuck), RejectionReason::Lifeless)
+/// Something moves in enough of the steps, and for no more than 6 s on end everything stays in its place:
+/// nobody is stuck, and what is done is followed by a rest, not by most of the event.
+fn lively(track: &Track) -> Result<(), RejectionReason> {
+    require(!is_lifeless_however_it_goes_on(track, track.steps()), RejectionReason::Lifeless)
 }
 
 /// Agents that hold on to an object and get nowhere let go of it in time, and are not cut off there.
@@ -92,35 +89,11 @@ fn untied(scene: &Scene, track: &Track) -> Result<(), RejectionReason> {
 
 /// Whether every event of at most so many steps that begins with this track is
 /// [lifeless](RejectionReason::Lifeless).
-pub(super) fn is_lifeless_however_it_goes_on(scene: &Scene, track: &Track, most_steps: usize) -> bool {
+pub(super) fn is_lifeless_however_it_goes_on(track: &Track, most_steps: usize) -> bool {
     let still = (1..track.states.len()).filter(|&step| rest::is_still(track, step)).count();
-    let stuck =
-        |from: usize| stays(track, from..from + MAX_STANDSTILL + 1) && is_done_after(scene, track, from);
+    let stuck = |from: usize| stays(track, from..from + MAX_STANDSTILL + 1);
     100 * still > MAX_STILL_PERCENT * most_steps
         || (0..track.states.len().saturating_sub(MAX_STANDSTILL)).any(stuck)
-}
-
-/// Whether, however the event goes on, [`done_at`] is after a step: a goal does not hold then or later, or
-/// has not been reached by touching until then.
-fn is_done_after(scene: &Scene, track: &Track, step: usize) -> bool {
-    scene.relation() == Relation::Adversarial
-        || scene.goals().into_iter().any(|goal| match (goal, goal.sign()) {
-            (_, Sign::Negative) => true,
-            (Goal::Touch { .. }, _) => {
-                track.states[..=step].iter().all(|state| !outcome::condition(&track.physics, state, goal))
-            }
-            _ => track.states[step..].iter().any(|state| !outcome::condition(&track.physics, state, goal)),
-        })
-}
-
-/// The step at which the goals of both agents have been reached; never for adversaries, nor for goals to keep
-/// something from happening.
-fn done_at(scene: &Scene, track: &Track) -> Option<usize> {
-    if scene.relation() == Relation::Adversarial {
-        return None;
-    }
-    let steps = scene.goals().map(|goal| GoalOutcome::of(track, goal).steps);
-    Some(steps[0]?.max(steps[1]?))
 }
 
 /// Whether every body stays where it was at the beginning of some steps.
@@ -137,6 +110,7 @@ fn helping(scene: &Scene, track: &Track) -> Result<Counterfactual, RejectionReas
     let helpee = helper.other();
     pursued(scene, track, helpee)?;
     progressed(scene, track, helpee)?;
+    require(tries(track, helpee, scene.agents[helpee].goal), RejectionReason::Aimless)?;
     Ok(Counterfactual { idle: helper, judged: helpee, change: CausalEffect::Helped, cut: true })
 }
 
@@ -149,23 +123,18 @@ fn hindering(scene: &Scene, track: &Track) -> Result<Counterfactual, RejectionRe
         goal => {
             pursued(scene, track, victim)?;
             require(kinds::is_in_the_way(scene, track, hinderer, goal), RejectionReason::NoContact)?;
-            require(is_defied(track, victim, goal), RejectionReason::NoContact)?;
+            let is_about_a_place = object_of(goal).is_none();
+            require(is_about_a_place || tries(track, victim, goal), RejectionReason::NoContact)?;
             require(!serves(track, hinderer, goal), RejectionReason::Misleading)?;
         }
     }
     Ok(Counterfactual { idle: hinderer, judged: victim, change: CausalEffect::Hindered, cut: true })
 }
 
-/// Whether a victim that wants an object somewhere is seen to try: it is at the object, or at the hinderer,
-/// for a while. Otherwise a viewer sees one agent carry an object, and another that minds its own business.
-fn is_defied(track: &Track, victim: AgentId, goal: Goal) -> bool {
-    let Some(object) = object_of(goal) else { return true };
-    let at = |other: Entity| contact::steps_touching(track, Entity::Agent(victim), other);
-    let mut steps = at(Entity::Object(object));
-    steps.extend(at(Entity::Agent(victim.other())));
-    steps.sort_unstable();
-    steps.dedup();
-    steps.len() >= MIN_ATTEMPT
+/// Whether an agent is seen to try for a while. Otherwise a viewer sees one agent carry an object, and another
+/// that minds its own business.
+fn tries(track: &Track, agent: AgentId, goal: Goal) -> bool {
+    clarity::steps_trying(track, agent, goal) >= MIN_ATTEMPT
 }
 
 /// Whether a hinderer alone carries the object to where the other wants it for longer than away from there,
@@ -182,6 +151,14 @@ fn serves(track: &Track, hinderer: AgentId, goal: Goal) -> bool {
     let closer = gains.iter().filter(|&&gain| gain > SEEN_APPROACH).count();
     let farther = gains.iter().filter(|&&gain| gain < -SEEN_APPROACH).count();
     closer > MAX_SERVICE && closer > farther
+}
+
+/// Both get the object their way: a viewer sees two aims, not two who carry together.
+fn competing(scene: &Scene, track: &Track) -> Result<Counterfactual, RejectionReason> {
+    let least = contest::favours(track, scene.goals()).into_iter().fold(f32::INFINITY, f32::min);
+    let counterfactual = kinds::competing(scene, track)?;
+    require(least >= MIN_FAVOUR, RejectionReason::Uncontested)?;
+    Ok(counterfactual)
 }
 
 /// The agent of a scene that waits while the other moves the object that it wants.

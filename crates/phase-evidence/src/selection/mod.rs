@@ -49,7 +49,7 @@ pub enum RejectionReason {
     NoFlight,
     /// Independent agents interfered with each other.
     Interference,
-    /// Nothing moves for most of the time, or adversaries stand still for long.
+    /// Nothing moves for most of the time, or everything stays in its place for 6 s.
     Lifeless,
     /// Both agents hold on to an object and get nowhere, for too long or at the end.
     Knotted,
@@ -234,7 +234,7 @@ pub fn certain_rejection(
     ending: Ending,
 ) -> Option<RejectionReason> {
     let Ending::Drawn(_) = ending else { return None };
-    if drawn::is_lifeless_however_it_goes_on(scene, track, *lengths.end()) {
+    if drawn::is_lifeless_however_it_goes_on(track, *lengths.end()) {
         return Some(RejectionReason::Lifeless);
     }
     drawn::is_searched_in_vain(scene, track)

@@ -40,20 +40,6 @@ fn six_seconds_of_standstill_are_enough() {
     assert_eq!(settled, None);
 }
 
-#[test]
-fn rest_after_success_is_certain_only_once_the_goal_is_lost() {
-    // Agent 0 stands on landmark 0, whose centre is (8.5, 19.5), agent 1 on landmark 1.
-    let scene = scene(EventKind::Independent, [place(0, 0), place(1, 1)], Attitude::Neutral);
-    let leaves = |t: usize| {
-        let away = on_way(t, (8.5, 19.5), (8.5, 9.5), 30..40);
-        Move { agents: [facing(away), (23.5, 19.5, 0.0)], objects: vec![(12.0, 4.5)], held: [None, None] }
-    };
-    let track = event(leaves);
-    assert_eq!(certain(&scene, &track.until(30)), None);
-    let at = certain_at(&scene, &track);
-    assert!(at.is_some_and(|at| (31..36).contains(&at)), "{at:?}");
-}
-
 /// Agent 0 waits for 30 steps in the lower left and faces down, while agent 1 carries the object from the
 /// upper left to the upper right; then it goes as `after` says, step after step.
 fn waiting(after: &[(f32, f32, f32)], sees: Sight) -> (Scene, Track) {

@@ -4,8 +4,11 @@ use crate::{
     selection::{THING, place, scene},
     support::{Move, track},
 };
-use phase_evidence::{Clarity, clarity::knots};
-use phase_model::{Attitude, EventKind, Goal};
+use phase_evidence::{
+    Clarity,
+    clarity::{knots, steps_trying},
+};
+use phase_model::{AgentId, Attitude, EventKind, Goal};
 
 /// Both agents at an object that is at x, turned by an angle.
 fn pulling(x: f32, angle: f32) -> Move {
@@ -58,4 +61,23 @@ fn spinning_and_trembling_are_shares_of_time() {
     let tremble: Vec<Move> = (0..11).map(|t| apart(14.0 + 0.1 * (t % 2) as f32)).collect();
     assert!((clarity(tremble).trembling - 1.0).abs() < 1e-9);
     assert_eq!(clarity(vec![apart(14.0); 11]).trembling, 0.0);
+}
+
+#[test]
+fn trying_is_being_at_what_is_wanted_or_at_the_other() {
+    let moves = [vec![apart(14.0); 5], vec![pulling(14.0, 0.0); 6]].concat();
+    assert_eq!(clarity(moves.clone()).trying, [11, 6]);
+    let track = track(moves);
+    let other = phase_model::ObjectId::ALL[1];
+    let Goal::ObjectOnLandmark { landmark, sign, .. } = THING else { panic!("a goal about an object") };
+    let about_another = Goal::ObjectOnLandmark { object: other, landmark, sign };
+    assert_eq!(steps_trying(&track, AgentId::ZERO, about_another), 0);
+}
+
+#[test]
+fn the_rest_at_the_end_is_as_long_as_everything_stays_there() {
+    let walk = (0..6).map(|t| apart(14.0 - 0.4 * t as f32));
+    let rest = core::iter::repeat_n(apart(12.0), 7);
+    assert_eq!(clarity(walk.chain(rest).collect()).rest_at_end, 7);
+    assert_eq!(clarity(vec![apart(14.0); 5]).rest_at_end, 4);
 }

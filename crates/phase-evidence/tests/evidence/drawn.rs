@@ -18,10 +18,21 @@ fn drawn(
     check_event(scene, track, 20..=100, Ending::Drawn(manner))
 }
 
-/// As `fetch`, and agent 1 sets out for the object.
+/// As `fetch`, and agent 1 is at agent 0 from step 12 to step 12 + `trying` - 1.
+fn wanted_for(t: usize, trying: usize) -> Move {
+    let helper = fetch(t).agents[0];
+    let beside = (helper.0 - 2.0, helper.1);
+    let helpee = match t {
+        0..12 => on_way(t, (6.0, 18.0), (6.0, 14.0), 0..8),
+        _ if t < 12 + trying => beside,
+        _ => (beside.0 - 3.0, beside.1),
+    };
+    Move { agents: [helper, facing(helpee)], ..fetch(t) }
+}
+
+/// As `fetch`, and agent 1 tries for two seconds.
 fn wanted(t: usize) -> Move {
-    let helpee = on_way(t, (8.0, 18.0), (8.0, 14.0), 0..8);
-    Move { agents: [fetch(t).agents[0], facing(helpee)], ..fetch(t) }
+    wanted_for(t, 8)
 }
 
 #[test]
@@ -42,6 +53,8 @@ fn help_may_be_cut_before_the_goal_is_reached() {
     for (found, reason) in refused {
         assert_eq!(found, Err(reason));
     }
+    let tries_too_little = event(|t| wanted_for(t, 7));
+    assert_eq!(drawn(&scene, &tries_too_little, None), Err(RejectionReason::Aimless));
     let unmoved = |t| Move { objects: vec![(12.0, 4.5)], ..wanted(t) };
     assert_eq!(drawn(&scene, &event(unmoved), None), Err(RejectionReason::NoProgress));
 }
@@ -77,29 +90,32 @@ fn errands(t: usize, arrived: usize) -> Move {
 #[test]
 fn most_of_an_event_must_not_be_still() {
     let scene = scene(EventKind::Independent, [place(0, 1), place(1, 3)], Attitude::Neutral);
-    assert_eq!(drawn(&scene, &event(|t| errands(t, 15)), None), Ok(None));
+    assert_eq!(drawn(&scene, &event(|t| errands(t, 17)), None), Ok(None));
     assert_eq!(drawn(&scene, &event(|t| errands(t, 9)), None), Err(RejectionReason::Lifeless));
     // Cut on the way.
     assert_eq!(drawn(&scene, &event(|t| errands(t, STEPS)).until(25), None), Ok(None));
     let turned_back = |t| errands(if t < 4 { t } else { 8_usize.saturating_sub(t) }, STEPS);
     assert!(drawn(&scene, &event(turned_back).until(20), None).is_err());
-    let crossing = drawn(&scene, &event(|t| errands(t, 15)), Some(Manner::Crossing));
+    let crossing = drawn(&scene, &event(|t| errands(t, 17)), Some(Manner::Crossing));
     assert_eq!(crossing, Err(RejectionReason::OtherManner));
 }
 
-/// Half of the way done, and then trembling on the spot.
+/// Part of the way or all of it, and then trembling on the spot.
 #[test]
-fn to_be_stuck_is_not_to_be_done() {
+fn nothing_is_followed_by_more_than_six_seconds_of_rest() {
     let scene = scene(EventKind::Independent, [place(0, 1), place(1, 3)], Attitude::Neutral);
-    let stuck = |until: usize| {
+    let resting = |until: usize, arrived: usize| {
         event(move |t| {
-            let mut step = errands(t.min(until), 30);
+            let mut step = errands(t.min(until), arrived);
             step.agents[0].1 += if t % 2 == 0 { 0.1 } else { 0.0 };
             step
         })
     };
-    assert_eq!(drawn(&scene, &stuck(14), None), Err(RejectionReason::Lifeless));
-    assert_eq!(drawn(&scene, &stuck(20), None), Ok(None), "20 steps are short enough");
+    for arrived in [30, STEPS - 24] {
+        assert_eq!(drawn(&scene, &resting(STEPS - 24, arrived), None), Err(RejectionReason::Lifeless));
+    }
+    assert_eq!(drawn(&scene, &resting(STEPS - 23, 30), None), Ok(None), "stuck");
+    assert_eq!(drawn(&scene, &resting(STEPS - 23, STEPS - 23), None), Ok(None), "done");
 }
 
 #[test]
@@ -155,4 +171,34 @@ fn agents_that_get_nowhere_let_go_in_time() {
     assert!(!knotted(10, 18));
     assert!(knotted(10, 24), "for a third of the event");
     assert!(knotted(34, STEPS + 2), "at the end");
+}
+
+/// Agent 0 carries the object to the left for so many steps, and then agent 1 to the right, against it at first.
+fn contest(left: usize) -> Track {
+    event(move |t| {
+        let x = 16.0 - 0.5 * t.min(left) as f32 + 0.5 * t.saturating_sub(left) as f32;
+        let agents = [facing((x, 21.0)), facing((x, 18.0))];
+        Move {
+            agents,
+            objects: vec![(x, 19.5)],
+            held: [(t <= left + 6).then_some(0), (t >= left).then_some(0)],
+        }
+    })
+}
+
+#[test]
+fn competitors_both_get_the_object_their_way() {
+    let top = |landmark| phase_model::Goal::ObjectOnLandmark {
+        object: phase_model::ObjectId::ZERO,
+        landmark,
+        sign: phase_model::Sign::Positive,
+    };
+    let goals = [phase_model::LandmarkId::TOP_LEFT, phase_model::LandmarkId::TOP_RIGHT].map(top);
+    let scene = scene(EventKind::Competing, goals, Attitude::Neutral);
+    assert_eq!(drawn(&scene, &contest(4), None), Err(RejectionReason::Uncontested));
+    assert_ne!(drawn(&scene, &contest(14), None), Err(RejectionReason::Uncontested));
+    // Along the line between both landmarks.
+    let at = |x: f32| Move { objects: vec![(x, 19.5)], ..Move::default() };
+    let track = crate::support::track([14.0, 13.0, 11.0, 15.0, 16.0].map(at));
+    assert_eq!(phase_evidence::contest::favours(&track, goals), [3.0, 5.0]);
 }

@@ -24,13 +24,13 @@ fn who_holds_the_object_when_decides_how_help_is_given() {
         let held = [(10..20).contains(&t).then_some(0), (20..30).contains(&t).then_some(0)];
         Move { held, ..fetch(t) }
     };
-    assert_eq!(helping(THING, &event(handed)), [Manner::HandingOver]);
-    // In the other order the helper only finishes what the helpee began.
+    assert_eq!(helping(THING, &event(handed)), [Manner::Fetching, Manner::HandingOver]);
+    // In the other order nothing is handed over.
     let finished = |t| {
         let held = [(20..30).contains(&t).then_some(0), (10..20).contains(&t).then_some(0)];
         Move { held, ..fetch(t) }
     };
-    assert_eq!(helping(THING, &event(finished)), []);
+    assert_eq!(helping(THING, &event(finished)), [Manner::Fetching]);
     let together = |t| Move { held: [fetch(t).held[0]; 2], ..fetch(t) };
     assert_eq!(helping(THING, &event(together)), [Manner::CarryingAlong]);
     let unmoved = |t| Move { objects: vec![(12.0, 4.5)], ..together(t) };
