@@ -5,7 +5,7 @@ use phase_perception::{Cell, CellSet, cells::CELL_COUNT};
 
 /// The τ of [`occupancy_weight`] for agents, which move on their own (steps).
 pub const AGENT_DECAY_STEPS: f32 = 20.0;
-/// The τ for objects, which move only when moved (steps). Events are 40 to 100 steps long.
+/// The τ for objects, which move only when moved (steps). Events are up to 100 steps long.
 pub const OBJECT_DECAY_STEPS: f32 = 200.0;
 
 /// Prior weight, 0 to 1, that an unobserved body occupies a cell last seen `age` steps ago (`None`: never):
