@@ -68,8 +68,7 @@ pub fn accepted(query: &Query, names: &Names) -> Vec<Accepted> {
             };
             LandmarkId::ALL.map(of).to_vec()
         }
-        Query::Stronger => agents().chain([plain("equal", &["equal", "equally", "same"])]).collect(),
-        Query::FirstTouch { .. } => agents().collect(),
+        Query::Stronger | Query::FirstTouch { .. } => agents().collect(),
         Query::Carrier { .. } => {
             let others =
                 [plain("both", &["both"]), plain("neither", &["neither", "none", "nobody", "no one"])];

@@ -25,8 +25,9 @@ const CLOSE: f32 = 0.4;
 const WAY_STEPS: usize = 8;
 /// Least number of steps for which an agent has to hold an object, and the distance it has to move (u).
 const CARRIED: (usize, f32) = (3, 1.0);
-/// The higher of two top speeds has to exceed the lower by this factor for its agent to count as stronger.
-const FASTER: f32 = 1.15;
+/// The agent whose top speed is higher by this factor counts as stronger. A viewer of a frame now and then does
+/// not see smaller differences.
+const FASTER: f32 = 1.5;
 
 /// The subject of a question. Its serialised `type` is the name of the question's type.
 ///
@@ -48,7 +49,7 @@ pub enum Query {
         /// Itself or an object.
         subject: Entity,
     },
-    /// The agent of the greater maximum force, or `equal`.
+    /// The agent of the greater maximum force.
     Stronger,
     /// The room of an entity at the end.
     EndRoom {
@@ -292,14 +293,9 @@ impl Query {
                 Some(room_value(room_of(if approach(old) > approach(new) { old } else { new })))
             }
             Self::Stronger => {
-                let top = AgentId::ALL.map(|agent| top_speed(states, agent));
-                Some(if top[0] > FASTER * top[1] {
-                    agent_value(AgentId::ZERO)
-                } else if top[1] > FASTER * top[0] {
-                    agent_value(AgentId::ONE)
-                } else {
-                    "equal".to_owned()
-                })
+                let [a, b] = AgentId::ALL.map(|agent| top_speed(states, agent));
+                let faster = if a > b { AgentId::ZERO } else { AgentId::ONE };
+                (a.max(b) > FASTER * a.min(b)).then(|| agent_value(faster))
             }
             _ => None,
         }
@@ -355,9 +351,9 @@ fn observes(track: &Track, state: &State, agent: AgentId, object: ObjectId) -> b
     observed_set(&track.physics, state, agent).contains(Entity::Object(object))
 }
 
-/// The highest speed of an agent from step to step (u/s).
+/// The highest speed of an agent over a second (u/s).
 fn top_speed(states: &[State], agent: AgentId) -> f32 {
     let place = |state: &State| -> Vec2 { state.position(Entity::Agent(agent)) };
-    let way = states.windows(2).map(|pair| place(&pair[0]).distance(place(&pair[1])));
-    way.fold(0.0, f32::max) / STEP_SECONDS as f32
+    let way = states.windows(MARGIN_STEPS + 1).map(|span| place(&span[0]).distance(place(&span[MARGIN_STEPS])));
+    way.fold(0.0, f32::max) / (MARGIN_STEPS as f32 * STEP_SECONDS as f32)
 }

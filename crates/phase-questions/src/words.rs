@@ -270,7 +270,6 @@ pub(crate) fn option(query: &Query, value: &str, names: &Names) -> String {
         | Query::LooksNext { .. }
         | Query::Ahead { .. } => landmark.map_or_else(String::new, |it| format!("the {} room", corner(it))),
         Query::Stronger | Query::FirstTouch { .. } | Query::Carrier { .. } => match (value, agent) {
-            ("equal", _) => "both are equally strong".into(),
             ("both", _) => "both agents, at once or one after the other".into(),
             ("neither", _) => "neither of them".into(),
             (_, Some(agent)) if matches!(query, Query::Carrier { .. }) => {

@@ -52,19 +52,16 @@ impl Asker<'_> {
             }
         }
         let strengths = scene.agents.map(|agent| agent.strength);
-        let stronger = match strengths[0].max_force().total_cmp(&strengths[1].max_force()) {
-            core::cmp::Ordering::Greater => "0",
-            core::cmp::Ordering::Less => "1",
-            core::cmp::Ordering::Equal => "equal",
-        };
         let sizes = scene.agents.map(|agent| agent.size);
         let stratum = format!("{:?}", sizes[0].radius().total_cmp(&sizes[1].radius()));
         let forces = strengths.map(|strength| strength.max_force());
         // The strength has to show: a viewer compares speeds.
-        if Query::Stronger.seen(&self.facts.track).as_deref() == Some(stronger) {
+        let stronger = if forces[0] > forces[1] { "0" } else { "1" };
+        let is_seen = Query::Stronger.seen(&self.facts.track).as_deref() == Some(stronger);
+        if forces[0] != forces[1] && is_seen {
             let proof =
                 json!({ "max_forces_newton": forces, "rule": "the scene; the stronger one moves faster" });
-            self.ask(Query::Stronger, texts(["0", "1", "equal"]), stronger.to_owned(), stratum, proof);
+            self.ask(Query::Stronger, texts(["0", "1"]), stronger.to_owned(), stratum, proof);
         }
     }
 
