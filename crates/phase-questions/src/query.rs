@@ -354,6 +354,7 @@ fn observes(track: &Track, state: &State, agent: AgentId, object: ObjectId) -> b
 /// The highest speed of an agent over a second (u/s).
 fn top_speed(states: &[State], agent: AgentId) -> f32 {
     let place = |state: &State| -> Vec2 { state.position(Entity::Agent(agent)) };
-    let way = states.windows(MARGIN_STEPS + 1).map(|span| place(&span[0]).distance(place(&span[MARGIN_STEPS])));
+    let way =
+        states.windows(MARGIN_STEPS + 1).map(|span| place(&span[0]).distance(place(&span[MARGIN_STEPS])));
     way.fold(0.0, f32::max) / (MARGIN_STEPS as f32 * STEP_SECONDS as f32)
 }
