@@ -52,8 +52,8 @@ fn an_object_that_is_ceded_is_not_touched() {
     assert_eq!(ceding(&together, 0), together.words(0));
 }
 
-/// An agent that has no part in the best plan, because the helper serves it alone, tries for itself, and lends
-/// a hand where it is not in the way.
+/// An agent that has no part in the best plan, because the helper serves it alone, tries for itself, and
+/// lends a hand where it is not in the way.
 #[test]
 fn who_is_helped_shows_what_it_wants_first() {
     let setup = Setup {

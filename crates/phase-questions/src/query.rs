@@ -25,8 +25,8 @@ const CLOSE: f32 = 0.4;
 const WAY_STEPS: usize = 8;
 /// Least number of steps for which an agent has to hold an object, and the distance it has to move (u).
 const CARRIED: (usize, f32) = (3, 1.0);
-/// The agent whose top speed is higher by this factor counts as stronger. A viewer of a frame now and then does
-/// not see smaller differences.
+/// The agent whose top speed is higher by this factor counts as stronger. A viewer of a frame now and then
+/// does not see smaller differences.
 const FASTER: f32 = 1.5;
 
 /// The subject of a question. Its serialised `type` is the name of the question's type.

@@ -132,8 +132,8 @@ fn hindering(scene: &Scene, track: &Track) -> Result<Counterfactual, RejectionRe
     Ok(Counterfactual { idle: hinderer, judged: victim, change: CausalEffect::Hindered, cut: true })
 }
 
-/// Whether an agent is seen to try for a while. Otherwise a viewer sees one agent carry an object, and another
-/// that minds its own business.
+/// Whether an agent is seen to try for a while. Otherwise a viewer sees one agent carry an object, and
+/// another that minds its own business.
 fn tries(track: &Track, agent: AgentId, goal: Goal) -> bool {
     clarity::steps_trying(track, agent, goal) >= MIN_ATTEMPT
 }

@@ -173,7 +173,8 @@ fn agents_that_get_nowhere_let_go_in_time() {
     assert!(knotted(34, STEPS + 2), "at the end");
 }
 
-/// Agent 0 carries the object to the left for so many steps, and then agent 1 to the right, against it at first.
+/// Agent 0 carries the object to the left for so many steps, and then agent 1 to the right, at first against
+/// agent 0.
 fn contest(left: usize) -> Track {
     event(move |t| {
         let x = 16.0 - 0.5 * t.min(left) as f32 + 0.5 * t.saturating_sub(left) as f32;
