@@ -94,6 +94,12 @@ pub enum JournalError {
         #[source]
         source: serde_json::Error,
     },
+    /// An entry that is not text.
+    #[error("entry {number} is not UTF-8")]
+    NotText {
+        /// Its number, from 1.
+        number: usize,
+    },
     /// The first entry does not open a room.
     #[error("the first entry must open a room of {FORMAT}")]
     Opening,
@@ -114,7 +120,20 @@ pub enum JournalError {
     Room(#[from] crate::RoomError),
 }
 
-/// Reads a journal. A last line without its end is left out: the step in it was never shown to anybody.
+/// The part of a journal that counts: a last line without its end does not, for the step in it was never
+/// shown to anybody.
+///
+/// # Errors
+/// [`JournalError::NotText`].
+pub fn whole(bytes: &[u8]) -> Result<&str, JournalError> {
+    let end = bytes.iter().rposition(|&byte| byte == b'\n').map_or(0, |end| end + 1);
+    core::str::from_utf8(&bytes[..end]).map_err(|error| {
+        let before = &bytes[..error.valid_up_to()];
+        JournalError::NotText { number: before.iter().filter(|&&byte| byte == b'\n').count() + 1 }
+    })
+}
+
+/// Reads a journal. A last line without its end is left out.
 ///
 /// # Errors
 /// [`JournalError::Entry`].
@@ -132,7 +151,9 @@ pub fn entries(text: &str) -> Result<Vec<Entry>, JournalError> {
 pub fn is_over(entries: &[Entry]) -> bool {
     match (entries.first(), entries.last()) {
         (_, Some(Entry::Over { .. })) => true,
-        (Some(Entry::Opened { rounds, .. }), Some(Entry::Ended { round })) => *round + 1 >= rounds.len(),
+        (Some(Entry::Opened { rounds, .. }), Some(Entry::Ended { round })) => {
+            *round >= rounds.len().saturating_sub(1)
+        }
         _ => false,
     }
 }

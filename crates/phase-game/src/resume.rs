@@ -28,7 +28,8 @@ impl Room {
         for (number, entry) in entries {
             match entry {
                 Entry::Began { round } if round == room.round && !room.begun => room.begun = true,
-                Entry::Step { actions } if room.begun => {
+                // A round that is over has no more steps.
+                Entry::Step { actions } if room.begun && !room.is_round_over() => {
                     let Actions(actions) = actions;
                     let mut given = [None; AGENT_COUNT];
                     for agent in AgentId::ALL {

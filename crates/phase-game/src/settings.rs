@@ -54,6 +54,7 @@ pub enum Player {
 
 /// The settings of a game. Defaults are the paper's where it names them.
 #[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct GameSettings {
     /// By agent, whether a person or a mind plays it.
     pub players: [Player; AGENT_COUNT],

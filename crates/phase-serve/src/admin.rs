@@ -10,7 +10,7 @@ use axum::{
     routing::{delete, get},
 };
 use phase_event::Recording;
-use phase_files::regular;
+use phase_files::{FileError, Problem, regular};
 use phase_model::words::Names;
 use serde_json::{Value, json};
 use std::{fs, path::Path as FilePath, sync::Arc};
@@ -72,7 +72,10 @@ async fn events(State(app): State<Arc<App>>, headers: HeaderMap) -> Result<Respo
         let mut recordings: Vec<Recording> = Vec::new();
         for file in files(&folder)? {
             let bytes = regular::bytes(&file).map_err(|error| ApiError::failed(&error))?;
-            recordings.extend(phase_event::parse(&bytes).map_err(|error| ApiError::failed(&error))?);
+            let read = phase_event::parse(&bytes).map_err(|error| {
+                ApiError::failed(&FileError { file: file.clone(), problem: Problem::content(error) })
+            });
+            recordings.extend(read?);
         }
         if recordings.is_empty() {
             return Err(ApiError::new(StatusCode::NOT_FOUND, "no round has been played to its end"));

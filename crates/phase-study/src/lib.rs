@@ -62,6 +62,8 @@ pub mod assignment;
 pub mod config;
 pub mod design;
 pub mod export;
+#[cfg(feature = "store")]
+mod fit;
 pub mod forms;
 #[cfg(feature = "store")]
 mod places;

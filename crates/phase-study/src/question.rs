@@ -142,6 +142,22 @@ impl Responses {
         Ok(Self(answers))
     }
 
+    /// Checks that everything answered is asked by some questions, and offered by them. Answers to questions
+    /// that were added later are missing.
+    #[cfg(feature = "store")]
+    pub(crate) fn check(&self, questions: &[Question]) -> Result<(), FieldError> {
+        let answers = self.to_json();
+        let root = Field::root(&answers);
+        let names: Vec<&str> = questions.iter().map(|question| question.name.as_str()).collect();
+        root.only(&names)?;
+        for question in questions {
+            if let Some(answered) = root.optional(&question.name)? {
+                given(&answered, &question.kind)?;
+            }
+        }
+        Ok(())
+    }
+
     /// The answer to one question.
     #[must_use]
     pub fn get(&self, name: &str) -> Option<&Given> {

@@ -4,10 +4,19 @@ use crate::{
     config::{CatchTrial, StudyConfig},
     question::{Given, Responses},
 };
+#[cfg(feature = "store")]
+use crate::{forms::Forms, question::Question};
 use std::collections::BTreeMap;
 
 /// A moment: milliseconds since 1970-01-01 UTC.
 pub type Millis = i64;
+
+/// Longest response time that is believed (ms): a week.
+#[cfg(feature = "store")]
+pub(crate) const LONGEST_RESPONSE: i64 = 7 * 24 * 3600 * 1000;
+/// Most plays that are believed.
+#[cfg(feature = "store")]
+pub(crate) const MOST_PLAYS: i64 = 10_000;
 
 /// The way in which a rater left.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -132,6 +141,17 @@ impl Rater {
 }
 
 impl Trial {
+    /// Its questions.
+    #[cfg(feature = "store")]
+    pub(crate) fn questions(&self, config: &StudyConfig, forms: &Forms) -> Vec<Question> {
+        let objects = if self.catch {
+            config.catch_trial(&self.shown).map(|trial| trial.objects)
+        } else {
+            config.stimulus(&self.shown).map(|stimulus| stimulus.objects)
+        };
+        forms.questions(config.form, objects.unwrap_or_default())
+    }
+
     /// Of an answered catch trial, whether the answer is right.
     #[must_use]
     pub fn passed(&self, config: &StudyConfig) -> Option<bool> {

@@ -10,6 +10,7 @@ use phase_study::{
     analysis::{Analysis, document},
     config::StudyConfig,
     export::{psych_ds, ratings},
+    forms::Forms,
     record::Rater,
     store::{Answers, backup as copy},
 };
@@ -53,9 +54,9 @@ fn file_of(config: &StudyConfig, answers: &Path) -> Result<PathBuf, CliError> {
 }
 
 /// The raters of a study.
-fn raters(config: &StudyConfig, answers: &Path) -> Result<Vec<Rater>, CliError> {
+fn raters(config: &StudyConfig, forms: &Forms, answers: &Path) -> Result<Vec<Rater>, CliError> {
     let answers = &file_of(config, answers)?;
-    let read = Answers::read(answers, &config.name, config.form.name()).map_err(CliError::Answers)?;
+    let read = Answers::read(answers, config, forms).map_err(CliError::Answers)?;
     if let Some(log) = read.missing_log {
         // Also with --quiet: what follows may be wrong.
         print_message(format!(
@@ -106,7 +107,7 @@ fn folder(path: &Path) -> Result<(), CliError> {
 pub(super) fn export(arguments: &ExportStudy) -> Result<(), CliError> {
     let out = &arguments.out;
     let (config, forms) = read(&arguments.config)?;
-    let raters = raters(&config, &arguments.answers)?;
+    let raters = raters(&config, &forms, &arguments.answers)?;
     let is_empty = incidental::is_empty(out).unwrap_or(false);
     if !is_empty {
         return Err(CliError::Usage(format!("--out: {} is not an empty folder", out.display())));
@@ -139,7 +140,7 @@ pub(super) fn export(arguments: &ExportStudy) -> Result<(), CliError> {
 pub(super) fn report(arguments: &ReportStudy) -> Result<(), CliError> {
     let out = &arguments.out;
     let (config, forms) = read(&arguments.config)?;
-    let analysis = Analysis::of(&config, &forms, &raters(&config, &arguments.answers)?);
+    let analysis = Analysis::of(&config, &forms, &raters(&config, &forms, &arguments.answers)?);
     let document = document(&config.title, &analysis);
     folder(out)?;
     let write =

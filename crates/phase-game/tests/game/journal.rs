@@ -4,7 +4,7 @@ use crate::support::{RED, Table, lines, round, settings};
 use core::time::Duration;
 use phase_game::{
     Doing, Entry, FromPlayer, Player, Room,
-    journal::{Actions, entries, is_over},
+    journal::{Actions, entries, is_over, whole as journal_text},
 };
 use phase_model::Action;
 
@@ -66,6 +66,21 @@ fn damaged_journals_are_refused() {
     let step = Entry::Step { actions: Actions([Action::Stop; 2]) };
     assert!(refused(vec![journal[0].clone(), step]).contains("entry 2"));
     assert!(refused(vec![journal[0].clone(), Entry::Ended { round: 0 }]).contains("entry 2"));
+    // A round that is over has no more steps.
+    let Some(end) = journal.iter().position(|entry| *entry == Entry::Ended { round: 0 }) else {
+        panic!("the practice has ended")
+    };
+    let longer = [&journal[..end], &journal[end - 1..end], &journal[end..]].concat();
+    assert!(refused(longer).contains(&format!("entry {}", end + 1)));
+    assert!(is_over(&[journal[0].clone(), Entry::Ended { round: usize::MAX }]));
+    // Bytes that are no text are not read as if they were others, and unknown settings are not left out.
+    let mut bytes = lines(&journal[..2]).into_bytes();
+    let first = bytes.iter().position(|&byte| byte == b'\n').expect("a line");
+    bytes[first + 3] = 0xff;
+    let error = journal_text(&bytes).expect_err("not text").to_string();
+    assert!(error.contains("entry 2 is not UTF-8"), "{error}");
+    let unknown = lines(&journal[..1]).replacen("\"view\":", "\"blur\":1,\"view\":", 1);
+    assert!(entries(&unknown).expect_err("unknown").to_string().contains("entry 1"));
     // Which of two members counts is not for a reader to choose.
     let twice = lines(&journal[..1]).replacen("\"seed\":", "\"seed\":1,\"seed\":", 1);
     assert!(twice.contains("\"seed\":1,"));

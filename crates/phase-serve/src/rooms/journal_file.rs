@@ -36,11 +36,11 @@ impl JournalFile {
         }
     }
 
-    /// A journal that goes on. A last line without its end, which nobody has seen the step of, is cut off.
-    pub(super) fn reopen(path: &Path, text: &str) -> Result<Self, WriteError> {
+    /// A journal that goes on. Of its last line, whose step nobody has seen if it has no end, nothing stays: what
+    /// counts is the first `whole` bytes.
+    pub(super) fn reopen(path: &Path, whole: usize) -> Result<Self, WriteError> {
         let failed = |source| WriteError { path: path.to_owned(), action: "continue", source };
         let file = OpenOptions::new().append(true).open(path).map_err(failed)?;
-        let whole = text.rfind('\n').map_or(0, |end| end + 1);
         file.set_len(whole as u64).map_err(failed)?;
         Ok(Self { path: path.to_owned(), file: Arc::new(file) })
     }

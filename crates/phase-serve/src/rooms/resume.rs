@@ -10,7 +10,7 @@ use core::time::Duration;
 use phase_files::{FileError, regular};
 use phase_game::{
     JournalError, Room, Round,
-    journal::{Entry, entries, is_over},
+    journal::{Entry, entries, is_over, whole},
 };
 use phase_model::path::RelativePath;
 use std::{
@@ -44,7 +44,8 @@ enum ResumeError {
 /// A game that is to go on.
 struct Open {
     path: PathBuf,
-    text: String,
+    /// Length of its journal without a last line that has no end (bytes).
+    whole: usize,
     entries: Vec<Entry>,
     listed: Listed,
 }
@@ -91,8 +92,8 @@ fn tell(path: &Path, source: ResumeError) {
 /// the table.
 fn look(rooms: &Arc<Rooms>, path: &Path) -> Result<Option<Open>, ResumeError> {
     let bytes = regular::bytes_within(path, LARGEST_JOURNAL)?;
-    let text = String::from_utf8_lossy(&bytes).into_owned();
-    let entries = entries(&text)?;
+    let text = whole(&bytes)?;
+    let entries = entries(text)?;
     let Some(Entry::Opened { room, keys, settings, rounds, .. }) = entries.first() else {
         return Err(JournalError::Opening.into());
     };
@@ -109,7 +110,7 @@ fn look(rooms: &Arc<Rooms>, path: &Path) -> Result<Option<Open>, ResumeError> {
     check_recordings(room, rounds)?;
     // It was there before, however many there may be now.
     let Ok(listed) = rooms.list(room, keys, settings.players, None, |_| Ok(())) else { return Ok(None) };
-    Ok(Some(Open { path: path.to_owned(), entries, text, listed }))
+    Ok(Some(Open { path: path.to_owned(), whole: text.len(), entries, listed }))
 }
 
 /// Checks names of recordings, which become files beside those of all other games: each has a name of its
@@ -136,12 +137,12 @@ pub(super) fn file_name(id: &str) -> Result<RelativePath, phase_model::path::Pat
 
 /// Plays a game again to where it was, and lets it go on.
 async fn replay(rooms: &Arc<Rooms>, game: Open) -> Result<(), ResumeError> {
-    let Open { path, text, entries, listed } = game;
+    let Open { path, whole, entries, listed } = game;
     // The semaphore is never closed.
     let _permit = rooms.cores.acquire().await.ok();
     let resumed = tokio::task::spawn_blocking(move || Room::resume(entries, Duration::ZERO)).await??;
     if let Some((room, effects)) = resumed {
-        let journal = JournalFile::reopen(&path, &text)?;
+        let journal = JournalFile::reopen(&path, whole)?;
         rooms.start(listed, room, journal, effects, None);
     }
     Ok(())

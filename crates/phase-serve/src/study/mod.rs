@@ -123,7 +123,7 @@ fn refusal(error: StudyError) -> ApiError {
             ApiError::new(StatusCode::CONFLICT, error.to_string())
         }
         StudyError::Field(error) => ApiError::bad(error.to_string()),
-        StudyError::Store(_) | StudyError::Unknown { .. } => ApiError::failed(&error),
+        StudyError::Store(_) => ApiError::failed(&error),
     }
 }
 

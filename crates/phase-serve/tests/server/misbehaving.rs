@@ -200,6 +200,13 @@ fn journals_of_others_do_no_harm() {
     let own = journal(&given.folder, "c0", "c0", "x-played-c0", good);
     let entries = entries(&own).expect("a journal");
     assert!(Room::resume(entries, Duration::ZERO).expect("good").is_some());
+    // Bytes that are no text, before a line that has no end: nothing of it is changed.
+    let mut bytes = journal(&given.folder, "d0", "d0", "x-played-d0", good).into_bytes();
+    let source = bytes.windows(5).position(|part| part == b"\"one\"").expect("a source");
+    bytes[source + 1] = 0xff;
+    bytes.extend(b"{\"entry\":");
+    let foreign = given.folder.join("rooms/d0.jsonl");
+    fs::write(&foreign, &bytes).expect("written");
     let server = Running::start(given.clone());
     let bearer = format!("Bearer {}", server.admin);
     let rooms =
@@ -214,6 +221,7 @@ fn journals_of_others_do_no_harm() {
     }
     assert_eq!(names(&rooms()), ["c0"]);
     server.stop();
+    assert_eq!(fs::read(&foreign).expect("bytes"), bytes);
     assert_eq!(fs::read_dir(given.folder.join("events")).expect("a folder").count(), 0);
     assert_eq!(fs::read_dir(folder.path()).expect("a folder").count(), 1);
 }

@@ -123,7 +123,7 @@ fn no_acknowledged_answer_is_lost_when_the_server_is_killed() {
 fn check(config: &Path, answers: &Path, acknowledged: &[Mutex<u64>]) {
     let forms = Forms::included().expect("forms");
     let config = StudyConfig::read(&fs::read(config).expect("bytes"), &forms).expect("valid");
-    let raters = Answers::read(answers, &config.name, config.form.name()).expect("answers").raters;
+    let raters = Answers::read(answers, &config, &forms).expect("answers").raters;
     let by_id: BTreeMap<&str, _> =
         raters.iter().map(|rater| (rater.parameters["PROLIFIC_PID"].as_str(), rater)).collect();
     for (k, count) in acknowledged.iter().enumerate() {

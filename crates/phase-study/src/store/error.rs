@@ -1,5 +1,6 @@
 //! Why a file of answers cannot be used.
 
+use crate::fit::Misfit;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
 
@@ -24,7 +25,10 @@ pub enum StoreProblem {
     #[error("is not a file with answers of a study")]
     Foreign,
     /// Another program wrote it.
-    #[error("has version {found} of its tables; this program knows version {}", super::SCHEMA_VERSION)]
+    #[error(
+        "has version {found} of its tables; this program knows version {}",
+        super::schema::SCHEMA_VERSION
+    )]
     Version {
         /// Its version.
         found: i32,
@@ -36,6 +40,17 @@ pub enum StoreProblem {
         name: String,
         /// Its form.
         form: String,
+    },
+    /// A table, view or trigger is not one of a study; in words.
+    #[error("{0}")]
+    Tables(String),
+    /// The study cannot have been answered so: its configuration was changed, or its answers were.
+    #[error("does not fit the configuration of the study: rater {rater} {what}")]
+    Misfit {
+        /// The rater.
+        rater: u64,
+        /// The misfit, as the rest of a sentence about the rater.
+        what: String,
     },
     /// Something in it is not as it was written.
     #[error("is damaged: rater {rater}: {what}")]
@@ -50,12 +65,15 @@ pub enum StoreProblem {
         "is damaged, as a copy made while somebody answered may be; `phase study backup` copies it whole"
     )]
     Torn,
-    /// It cannot be read.
-    #[error("cannot be used: {0}")]
-    Unreadable(#[source] std::io::Error),
     /// The database fails, for example because the disk is full.
     #[error("the database fails: {0}")]
     Database(#[source] rusqlite::Error),
+}
+
+impl From<Misfit> for StoreProblem {
+    fn from((rater, what): Misfit) -> Self {
+        Self::Misfit { rater, what }
+    }
 }
 
 impl From<rusqlite::Error> for StoreProblem {

@@ -1,13 +1,13 @@
 //! A file of answers that is only read, wherever it lies, and copies of one.
 
-use super::{PATIENCE, StoreError, StoreProblem, Writing, identify};
-use crate::record::Rater;
+use super::{PATIENCE, StoreError, StoreProblem, Writing, schema};
+use crate::{config::StudyConfig, fit, forms::Forms, record::Rater};
 use phase_files::regular;
 use rusqlite::{Connection, ErrorCode, OpenFlags, TransactionBehavior};
 use std::{
     ffi::OsString,
     fmt::Write as _,
-    io::{self, Read as _},
+    io::Read as _,
     path::{Path, PathBuf},
 };
 
@@ -25,21 +25,22 @@ pub struct Answers {
 }
 
 impl Answers {
-    /// Reads the answers of a study of this name and form, which is not changed and need not be writable.
+    /// Reads the answers of a study from a file, which is not changed and need not be writable.
     ///
     /// # Errors
     /// [`StoreError`] if there is no such file, it is something else or of another study, it was written by a
-    /// newer program or it is damaged.
-    pub fn read(path: &Path, name: &str, form: &str) -> Result<Self, StoreError> {
+    /// newer program, it is damaged, or it has what the study cannot have been answered.
+    pub fn read(path: &Path, config: &StudyConfig, forms: &Forms) -> Result<Self, StoreError> {
         let failed = |problem| StoreError { file: path.to_owned(), problem };
         // Before it is opened, which may make an empty one.
         let missing_log = missing_log(path);
         let mut connection = open(path)?;
         let begun = connection.transaction_with_behavior(TransactionBehavior::Deferred);
         let transaction = begun.map_err(|error| failed(error.into()))?;
-        identify(&transaction, name, form).map_err(failed)?;
-        check(&transaction).map_err(failed)?;
+        schema::identify(&transaction, &config.name, config.form.name()).map_err(failed)?;
+        schema::check(&transaction).map_err(failed)?;
         let raters = Writing { transaction, path }.raters()?;
+        fit::check(config, forms, &raters).map_err(|misfit| failed(misfit.into()))?;
         Ok(Self { raters, missing_log })
     }
 }
@@ -51,15 +52,12 @@ impl Answers {
 pub fn backup(from: &Path, to: &Path) -> Result<(), StoreError> {
     let failed = |problem| StoreError { file: from.to_owned(), problem };
     let connection = open(from)?;
-    if super::number(&connection, "application_id").map_err(failed)? != super::APPLICATION {
+    if schema::number(&connection, "application_id").map_err(failed)? != schema::APPLICATION {
         return Err(failed(StoreProblem::Foreign));
     }
-    check(&connection).map_err(failed)?;
-    let target = to.to_str().ok_or_else(|| {
-        let problem = StoreProblem::Unreadable(io::Error::other("its path is not UTF-8"));
-        StoreError { file: to.to_owned(), problem }
-    })?;
-    let copied = connection.execute("VACUUM INTO ?1", [target]);
+    schema::check(&connection).map_err(failed)?;
+    // An address has paths that are not text, too.
+    let copied = connection.execute("VACUUM INTO ?1", [address(to)]);
     copied.map(|_| ()).map_err(|error| StoreError::of(to, error))
 }
 
@@ -86,7 +84,7 @@ fn open(path: &Path) -> Result<Connection, StoreError> {
     let left = [beside(path, "-wal"), beside(path, "-journal")];
     if left.iter().all(|file| is_nothing(file)) {
         let flags = reading | OpenFlags::SQLITE_OPEN_URI;
-        if let Ok(connection) = attempt(Connection::open_with_flags(address(path), flags)) {
+        if let Ok(connection) = attempt(Connection::open_with_flags(address(path) + "?immutable=1", flags)) {
             return Ok(connection);
         }
     }
@@ -101,7 +99,7 @@ fn attempt(opened: rusqlite::Result<Connection>) -> rusqlite::Result<Connection>
     Ok(connection)
 }
 
-/// The address of a file that does not change (<https://www.sqlite.org/uri.html>).
+/// The address of a file (<https://www.sqlite.org/uri.html>).
 fn address(path: &Path) -> String {
     let mut text = String::from("file:");
     for &byte in path.as_os_str().as_encoded_bytes() {
@@ -112,7 +110,7 @@ fn address(path: &Path) -> String {
             let _ = write!(text, "%{byte:02X}");
         }
     }
-    text + "?immutable=1"
+    text
 }
 
 fn beside(path: &Path, ending: &str) -> PathBuf {
@@ -132,10 +130,4 @@ fn missing_log(path: &Path) -> Option<PathBuf> {
 
 fn is_nothing(file: &Path) -> bool {
     file.metadata().map_or(true, |file| file.len() == 0)
-}
-
-/// Checks that a file is whole: one that was copied while it was written may not be.
-fn check(connection: &Connection) -> Result<(), StoreProblem> {
-    let found: String = connection.query_row("PRAGMA quick_check(1)", [], |row| row.get(0))?;
-    if found == "ok" { Ok(()) } else { Err(StoreProblem::Torn) }
 }

@@ -8,11 +8,15 @@
 mod error;
 mod file;
 mod read;
+mod schema;
 
 pub use error::{StoreError, StoreProblem};
 pub use file::{Answers, backup};
 
 use crate::{
+    config::StudyConfig,
+    fit,
+    forms::Forms,
     question::Responses,
     record::{Departure, GivenAnswer, Millis, Rater},
 };
@@ -23,56 +27,8 @@ use std::{
     time::Duration,
 };
 
-/// `PHst`, by which SQLite files of studies are known (`application_id`).
-const APPLICATION: i32 = 0x5048_7374;
-/// Version of the tables (`user_version`).
-pub(crate) const SCHEMA_VERSION: i32 = 1;
 /// Time for which a transaction waits for another program's.
 const PATIENCE: Duration = Duration::from_secs(10);
-
-const SCHEMA: &str = "
-CREATE TABLE study (name TEXT NOT NULL, form TEXT NOT NULL) STRICT;
-CREATE TABLE rater (number INTEGER PRIMARY KEY AUTOINCREMENT, joined INTEGER NOT NULL) STRICT;
-CREATE TABLE token (digest BLOB PRIMARY KEY, rater INTEGER NOT NULL REFERENCES rater) STRICT, WITHOUT ROWID;
-CREATE TABLE origin (rater INTEGER PRIMARY KEY REFERENCES rater, identity TEXT UNIQUE, parameters TEXT NOT NULL) STRICT;
-CREATE TABLE page (rater INTEGER NOT NULL REFERENCES rater, page TEXT NOT NULL, at INTEGER NOT NULL, answer TEXT,
-    PRIMARY KEY (rater, page)) STRICT, WITHOUT ROWID;
-CREATE TABLE trial (rater INTEGER NOT NULL REFERENCES rater, number INTEGER NOT NULL, shown TEXT NOT NULL,
-    catch INTEGER NOT NULL, PRIMARY KEY (rater, number), UNIQUE (rater, shown)) STRICT, WITHOUT ROWID;
-CREATE TABLE answer (rater INTEGER NOT NULL, number INTEGER NOT NULL, at INTEGER NOT NULL, answer TEXT NOT NULL,
-    response_time INTEGER NOT NULL, plays INTEGER NOT NULL, PRIMARY KEY (rater, number),
-    FOREIGN KEY (rater, number) REFERENCES trial) STRICT, WITHOUT ROWID;
-CREATE TABLE departure (rater INTEGER PRIMARY KEY REFERENCES rater, at INTEGER NOT NULL, kind TEXT NOT NULL) STRICT;
-";
-
-/// Random bytes that only the server knows; files of earlier versions have none.
-const SECRET: &str = "
-CREATE TABLE IF NOT EXISTS secret (bytes BLOB NOT NULL) STRICT;
-INSERT INTO secret SELECT randomblob(16) WHERE NOT EXISTS (SELECT 1 FROM secret);
-";
-
-/// All tables; no row of them is ever changed.
-const TABLES: [&str; 8] = ["study", "rater", "token", "departure", "origin", "page", "trial", "answer"];
-/// Those whose rows go when their rater leaves.
-const OF_RATERS: [&str; 4] = ["answer", "trial", "page", "origin"];
-
-/// Triggers by which the database itself refuses changes, whatever program makes them.
-fn triggers() -> String {
-    let mut sql = String::new();
-    for table in TABLES {
-        let left = if OF_RATERS.contains(&table) {
-            "WHEN NOT EXISTS (SELECT 1 FROM departure WHERE departure.rater = OLD.rater)"
-        } else {
-            ""
-        };
-        sql += &format!(
-            "CREATE TRIGGER {table}_stays BEFORE UPDATE ON {table} BEGIN SELECT RAISE(ABORT, 'answers are never changed'); END;\n\
-             CREATE TRIGGER {table}_is_kept BEFORE DELETE ON {table} {left} \
-             BEGIN SELECT RAISE(ABORT, 'only who left is deleted'); END;\n"
-        );
-    }
-    sql
-}
 
 /// Pages before the first trial, as the table `page` names them.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -121,15 +77,12 @@ impl Store {
     fn prepare(&mut self, name: &str, form: &str) -> Result<(), StoreProblem> {
         self.connection.busy_timeout(PATIENCE)?;
         let transaction = self.connection.transaction_with_behavior(TransactionBehavior::Immediate)?;
-        if is_new(&transaction)? {
-            transaction.execute_batch(SCHEMA)?;
-            transaction.execute_batch(&triggers())?;
-            transaction.execute("INSERT INTO study (name, form) VALUES (?1, ?2)", [name, form])?;
-            transaction.pragma_update(None, "application_id", APPLICATION)?;
-            transaction.pragma_update(None, "user_version", SCHEMA_VERSION)?;
+        if schema::is_new(&transaction)? {
+            schema::make(&transaction, name, form)?;
         }
-        identify(&transaction, name, form)?;
-        transaction.execute_batch(SECRET)?;
+        schema::identify(&transaction, name, form)?;
+        schema::check(&transaction)?;
+        schema::make_secret(&transaction)?;
         transaction.commit()?;
         self.connection.pragma_update(None, "journal_mode", "DELETE")?;
         self.connection.pragma_update(None, "synchronous", "EXTRA")?;
@@ -152,6 +105,17 @@ impl Store {
         self.write(|store| store.raters())
     }
 
+    /// Checks that raters' answers are some that the study can have been given.
+    pub(crate) fn fits(
+        &self,
+        config: &StudyConfig,
+        forms: &Forms,
+        raters: &[Rater],
+    ) -> Result<(), StoreError> {
+        fit::check(config, forms, raters)
+            .map_err(|misfit| StoreError { file: self.path.clone(), problem: misfit.into() })
+    }
+
     /// Runs an operation as one transaction, which is undone if it fails.
     pub(crate) fn write<T, E: From<StoreError>>(
         &mut self,
@@ -163,35 +127,6 @@ impl Store {
         let result = operation(&writing)?;
         writing.transaction.commit().map_err(|error| StoreError::of(&self.path, error))?;
         Ok(result)
-    }
-}
-
-/// Whether a database has nothing in it.
-fn is_new(connection: &Connection) -> Result<bool, StoreProblem> {
-    let tables: i64 = connection.query_row("SELECT count(*) FROM sqlite_schema", [], |row| row.get(0))?;
-    Ok((number(connection, "application_id")?, number(connection, "user_version")?, tables) == (0, 0, 0))
-}
-
-fn number(connection: &Connection, pragma: &str) -> Result<i32, StoreProblem> {
-    Ok(connection.pragma_query_value(None, pragma, |row| row.get(0))?)
-}
-
-/// Checks that a database has the answers of a study of this name and form.
-fn identify(connection: &Connection, name: &str, form: &str) -> Result<(), StoreProblem> {
-    let version = number(connection, "user_version")?;
-    if number(connection, "application_id")? != APPLICATION {
-        return Err(StoreProblem::Foreign);
-    }
-    if version != SCHEMA_VERSION {
-        return Err(StoreProblem::Version { found: version });
-    }
-    let found: (String, String) =
-        connection.query_row("SELECT name, form FROM study", [], |row| Ok((row.get(0)?, row.get(1)?)))?;
-    if (found.0.as_str(), found.1.as_str()) == (name, form) {
-        Ok(())
-    } else {
-        let (name, form) = found;
-        Err(StoreProblem::OtherStudy { name, form })
     }
 }
 
@@ -270,7 +205,7 @@ impl Writing<'_> {
     pub(crate) fn depart(&self, rater: u64, at: Millis, departure: Departure) -> Result<(), StoreError> {
         let sql = "INSERT INTO departure (rater, at, kind) VALUES (?1, ?2, ?3)";
         self.execute(sql, params![rater as i64, at, read::departure_name(departure)])?;
-        for table in OF_RATERS {
+        for table in schema::OF_RATERS {
             self.execute(&format!("DELETE FROM {table} WHERE rater = ?1"), [rater as i64])?;
         }
         Ok(())

@@ -60,11 +60,10 @@ impl Writing<'_> {
             Ok(())
         })?;
         self.each(PAGES, "page.rater, page", one, |row| {
-            let number: i64 = self.get(row, 0)?;
+            let number = self.rater_number(row)?;
             let page: String = self.get(row, 1)?;
             let at: i64 = self.get(row, 2)?;
             let text: Option<String> = self.get(row, 3)?;
-            let number = number.unsigned_abs();
             let rater = raters.get_mut(&number).ok_or_else(|| self.damaged(number, "is missing".into()))?;
             match Page::ALL.into_iter().find(|known| known.name() == page) {
                 Some(Page::Consent) => rater.consented = Some(at),
@@ -77,9 +76,8 @@ impl Writing<'_> {
             Ok(())
         })?;
         self.each(TRIALS, "trial.rater, trial.number", one, |row| {
-            let number: i64 = self.get(row, 0)?;
+            let number = self.rater_number(row)?;
             let k: i64 = self.get(row, 1)?;
-            let number = number.unsigned_abs();
             let trial = self.trial(row, number)?;
             let rater = raters.get_mut(&number).ok_or_else(|| self.damaged(number, "is missing".into()))?;
             if rater.trials.len() as i64 != k {
@@ -114,9 +112,14 @@ impl Writing<'_> {
         row.get(column).map_err(|error| self.failed(error))
     }
 
-    fn new_rater(&self, row: &Row<'_>) -> Result<Rater, StoreError> {
+    fn rater_number(&self, row: &Row<'_>) -> Result<u64, StoreError> {
         let number: i64 = self.get(row, 0)?;
-        let number = number.unsigned_abs();
+        u64::try_from(number)
+            .map_err(|_| self.damaged(number.unsigned_abs(), "the number must not be negative".into()))
+    }
+
+    fn new_rater(&self, row: &Row<'_>) -> Result<Rater, StoreError> {
+        let number = self.rater_number(row)?;
         let parameters: Option<String> = self.get(row, 2)?;
         let parameters = parameters.map_or_else(|| Ok(BTreeMap::new()), |text| parse_as(&text));
         let departure: Option<String> = self.get(row, 3)?;

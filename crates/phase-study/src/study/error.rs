@@ -19,14 +19,6 @@ pub enum StudyError {
     /// An answer breaks a rule.
     #[error(transparent)]
     Field(#[from] FieldError),
-    /// A rater is to see a video that the configuration does not have.
-    #[error("rater {rater} was given {shown:?}, which the configuration no longer has")]
-    Unknown {
-        /// The rater.
-        rater: u64,
-        /// The id of the video.
-        shown: String,
-    },
     /// The answers cannot be read or written.
     #[error(transparent)]
     Store(#[from] StoreError),

@@ -15,8 +15,8 @@ use crate::{
     config::StudyConfig,
     forms::Forms,
     places::Places,
-    question::{Question, Responses},
-    record::{Departure, GivenAnswer, Millis, Rater},
+    question::Responses,
+    record::{Departure, GivenAnswer, LONGEST_RESPONSE, MOST_PLAYS, Millis, Rater},
     store::{Page, Store, Writing},
 };
 use names::Names;
@@ -28,11 +28,6 @@ use waiting::Waiting;
 
 /// Longest value of a member of the address that is kept (letters).
 const LONGEST_PARAMETER: usize = 200;
-/// Longest response time that is believed (ms): a week.
-const LONGEST_RESPONSE: i64 = 7 * 24 * 3600 * 1000;
-/// Most plays that are believed.
-const MOST_PLAYS: i64 = 10_000;
-
 /// The answer to a rater who comes.
 #[derive(Clone, PartialEq, Debug, Serialize)]
 pub struct Joined {
@@ -75,22 +70,10 @@ impl Study {
     /// A study and the answers that it has so far.
     ///
     /// # Errors
-    /// [`StudyError::Unknown`] if somebody is to see a video that the configuration does not have;
-    /// [`StudyError::Store`].
+    /// [`StudyError::Store`], also if the answers do not fit the configuration.
     pub fn new(config: StudyConfig, forms: Forms, mut store: Store) -> Result<Self, StudyError> {
         let raters = store.raters()?;
-        for rater in &raters {
-            for trial in &rater.trials {
-                let known = if trial.catch {
-                    config.catch_trial(&trial.shown).is_some()
-                } else {
-                    config.stimulus(&trial.shown).is_some()
-                };
-                if !known {
-                    return Err(StudyError::Unknown { rater: rater.number, shown: trial.shown.clone() });
-                }
-            }
-        }
+        store.fits(&config, &forms, &raters)?;
         let names = Names::new(store.secret()?);
         let videos = config.videos().map(|(id, file)| (names.of(id), (id.to_owned(), file.to_owned())));
         Ok(Self {
@@ -290,7 +273,7 @@ impl Study {
             let Some(trial) = rater.trials.get(place).filter(|_| rater.instructed.is_some()) else {
                 return Err(StudyError::NotNow("trial"));
             };
-            let questions = questions(config, forms, &trial.shown, trial.catch);
+            let questions = trial.questions(config, forms);
             let given = GivenAnswer {
                 at: now,
                 answer: Responses::read(&root.required("answer")?, &questions)?,
@@ -345,14 +328,4 @@ impl Study {
 /// The moment before which a rater must have given a sign to keep its places.
 fn earliest(config: &StudyConfig, now: Millis) -> Millis {
     now.saturating_sub(i64::from(config.minutes) * 60_000)
-}
-
-/// The questions of a trial.
-fn questions(config: &StudyConfig, forms: &Forms, shown: &str, catch: bool) -> Vec<Question> {
-    let objects = if catch {
-        config.catch_trial(shown).map(|trial| trial.objects)
-    } else {
-        config.stimulus(shown).map(|stimulus| stimulus.objects)
-    };
-    forms.questions(config.form, objects.unwrap_or_default())
 }

@@ -1,6 +1,6 @@
 //! Stages: everything that a rater's page shows, one after the other.
 
-use super::{Given, questions};
+use super::Given;
 use crate::{
     config::StudyConfig,
     question::Question,
@@ -100,7 +100,7 @@ pub(super) fn of(given: Given<'_>, rater: &Rater) -> Stage {
         trial: k + 1,
         trials: rater.trials.len(),
         video: format!("videos/{}.mp4", names.of(&trial.shown)),
-        questions: questions(config, forms, &trial.shown, trial.catch),
+        questions: trial.questions(config, forms),
         answer_before_end: config.answer_before_end,
     })
 }
