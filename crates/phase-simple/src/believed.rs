@@ -2,54 +2,127 @@
 
 use crate::{
     Hypothesis, Inference, KnowledgeOfGoal, PreparedEvent, beliefs::EstimatedBeliefs, guide::intent_of,
-    ignorance::PRIOR, uninformed::actions_of,
+    uninformed::actions_of,
 };
 use phase_model::{AGENT_COUNT, AgentId, Attitude, Awareness, Intent, Level};
+use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
-/// For each agent the intents that it takes the other to have, with their probabilities.
-pub(crate) type BelievedIntents = [BTreeMap<Intent, f64>; AGENT_COUNT];
+/// The levels at which beliefs differ: level 2 learns as level 1 does.
+const LEARNERS: [Level; 2] = [Level::Zero, Level::One];
 
-/// The levels at which beliefs differ, as level 2 learns as level 1 does, and the prior probability of each.
-const LEARNERS: [(Level, f64); 2] = [(Level::Zero, 1.0 / 3.0), (Level::One, 2.0 / 3.0)];
+/// Prior probabilities of what a neutral agent knows of the other's goal; how it acts hardly tells that.
+#[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
+pub struct NeutralKnowledge {
+    /// Probability that it knows the goal, 0 to 1.
+    pub knows: f64,
+    /// Probability that one that does not know it does not infer it, either, 0 to 1.
+    pub level_zero: f64,
+}
+
+/// As fitted by `cargo xtask fit-intents` to 40 training events of `phase-minds`. No particles of level 0
+/// ever agree on an intent, so that its beliefs are not asked about.
+const FITTED: NeutralKnowledge = NeutralKnowledge { knows: 0.25, level_zero: 0.0 };
+
+impl Default for NeutralKnowledge {
+    fn default() -> Self {
+        FITTED
+    }
+}
+
+/// Intents that an agent takes the other to have, with their probabilities.
+type Shares = Vec<(Intent, f64)>;
+
+/// The intents that an agent takes the other to have after a step, by what it knows.
+#[derive(Clone, PartialEq, Debug, Default, Serialize, Deserialize)]
+struct OfAgent {
+    /// If the agent helps or hinders, or all agents are taken to know; weighed already.
+    settled: Shares,
+    /// If the agent is neutral and knows the other's goal.
+    knowing: Shares,
+    /// If it is neutral and does not know the goal, at each level.
+    unknowing: [Shares; LEARNERS.len()],
+}
+
+/// The evidence in the motion of an event about the intents that its agents take each other to have;
+/// [`intents`](Self::intents) averages over what neutral agents know.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
+pub struct IntentBeliefEvidence(Vec<[OfAgent; AGENT_COUNT]>);
+
+impl IntentBeliefEvidence {
+    /// The intents that each agent takes the other to have after each of the steps.
+    #[must_use]
+    pub fn intents(
+        &self,
+        &NeutralKnowledge { knows, level_zero }: &NeutralKnowledge,
+    ) -> Vec<[BTreeMap<Intent, f64>; AGENT_COUNT]> {
+        let weights = [knows, (1.0 - knows) * level_zero, (1.0 - knows) * (1.0 - level_zero)];
+        let mean = |OfAgent { settled, knowing, unknowing: [zero, one] }: &OfAgent| {
+            let mut all = BTreeMap::new();
+            let parts = [(1.0, settled)].into_iter().chain(weights.into_iter().zip([knowing, zero, one]));
+            for (weight, shares) in parts.filter(|(weight, _)| *weight > 0.0) {
+                shares.iter().for_each(|(intent, share)| *all.entry(*intent).or_default() += weight * share);
+            }
+            all
+        };
+        self.0.iter().map(|agents| AgentId::ALL.map(|agent| mean(&agents[agent]))).collect()
+    }
+}
 
 /// The intents that each agent takes the other to have after some steps. One that knows the other's goal
 /// takes it to have its intent; another has the suppositions of its particles. Without latent knowledge all
-/// agents know it. What a neutral agent knows hardly shows in what it does: it is as likely as not.
-pub(crate) fn believed(
+/// agents know it.
+pub(crate) fn evidence(
     prepared: &PreparedEvent,
     inference: &Inference,
     steps: &[usize],
-) -> Vec<BelievedIntents> {
-    let mut all: Vec<BelievedIntents> = steps.iter().map(|_| BelievedIntents::default()).collect();
+) -> IntentBeliefEvidence {
+    let mut all: Vec<[OfAgent; AGENT_COUNT]> = steps.iter().map(|_| Default::default()).collect();
     for agent in AgentId::ALL {
         let knowledge = inference.knowledge.as_ref().map(|knowledge| &knowledge[agent]);
-        let mut known: BTreeMap<Intent, f64> = BTreeMap::new();
         for (hypothesis, weight) in &inference.posterior.hypotheses {
-            let knows = match (knowledge, hypothesis.attitudes[agent]) {
-                (None, _) => 1.0,
-                (Some(_), Attitude::Neutral) => 1.0 - PRIOR,
-                (Some(knowledge), _) => knowledge.knows,
-            };
-            *known.entry(intent_of(hypothesis, agent.other())).or_default() += weight * knows;
+            let intent = intent_of(hypothesis, agent.other());
+            let is_open = knowledge.is_some() && hypothesis.attitudes[agent] == Attitude::Neutral;
+            let knows = knowledge.filter(|_| !is_open).map_or(1.0, |knowledge| knowledge.knows);
+            for of in &mut all {
+                let OfAgent { settled, knowing, .. } = &mut of[agent];
+                if is_open { knowing } else { settled }.push((intent, weight * knows));
+            }
         }
-        all.iter_mut().for_each(|believed| believed[agent] = known.clone());
         for (hypothesis, level, weight) in unknowing(inference, agent, knowledge) {
+            let is_neutral = hypothesis.attitudes[agent] == Attitude::Neutral;
             let beliefs = beliefs_of(prepared, hypothesis, agent, level);
-            for (&step, believed) in steps.iter().zip(&mut all) {
+            for (&step, of) in steps.iter().zip(&mut all) {
+                let OfAgent { settled, unknowing: [zero, one], .. } = &mut of[agent];
+                let shares = match (is_neutral, level) {
+                    (false, _) => settled,
+                    (true, Level::Zero) => zero,
+                    (true, Level::One | Level::Two) => one,
+                };
                 let suppositions = beliefs.after(step).suppositions();
                 let share = weight / suppositions.len().max(1) as f64;
-                for supposition in suppositions {
-                    *believed[agent].entry(supposition.intent).or_default() += share;
-                }
+                shares.extend(suppositions.iter().map(|supposition| (supposition.intent, share)));
             }
         }
     }
-    all
+    all.iter_mut().flatten().for_each(OfAgent::merge);
+    IntentBeliefEvidence(all)
+}
+
+impl OfAgent {
+    /// Adds up the probabilities of each intent.
+    fn merge(&mut self) {
+        let [zero, one] = &mut self.unknowing;
+        for shares in [&mut self.settled, &mut self.knowing, zero, one] {
+            let mut sums: BTreeMap<Intent, f64> = BTreeMap::new();
+            shares.iter().for_each(|(intent, share)| *sums.entry(*intent).or_default() += share);
+            *shares = sums.into_iter().collect();
+        }
+    }
 }
 
 /// The likeliest hypotheses in which an agent is neutral, and in which it is not, at each level at which it
-/// may lack knowledge, with the probability of that.
+/// may lack knowledge, with the probability of that; for a neutral agent with that of being neutral.
 fn unknowing<'a>(
     inference: &'a Inference,
     agent: AgentId,
@@ -63,9 +136,9 @@ fn unknowing<'a>(
         let weight: f64 = hypotheses.iter().filter(is_such).map(|(_, weight)| weight).sum();
         let Some((likeliest, _)) = hypotheses.iter().find(is_such) else { continue };
         let [zero, one, two] = knowledge.levels;
-        let shares = if neutral { LEARNERS.map(|(_, prior)| PRIOR * prior) } else { [zero, one + two] };
+        let shares = if neutral { [1.0; LEARNERS.len()] } else { [zero, one + two] };
         let levels = LEARNERS.into_iter().zip(shares);
-        all.extend(levels.map(|((level, _), share)| (likeliest, level, weight * share)));
+        all.extend(levels.map(|(level, share)| (likeliest, level, weight * share)));
     }
     all.retain(|(.., weight)| *weight > 0.0);
     all

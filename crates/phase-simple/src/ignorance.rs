@@ -9,7 +9,7 @@ use phase_pomcp::PomcpError;
 use phase_statistics::log_sum_exp;
 
 /// Prior probability that a helper or hinderer does not know the other's goal.
-pub(crate) const PRIOR: f64 = 0.5;
+const PRIOR: f64 = 0.5;
 
 /// The levels at which an agent of an attitude can reason, with their prior probabilities. Only hinderers of
 /// level 2, who wait until they are not seen, differ from those of level 1.

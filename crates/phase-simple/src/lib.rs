@@ -81,6 +81,7 @@ pub mod strength;
 mod uninformed;
 
 pub use answer::{Inference, KnowledgeOfGoal, MindPosterior};
+pub use believed::{IntentBeliefEvidence, NeutralKnowledge};
 pub use evidence::{ActionLikelihoods, Budget, IntentEvidence};
 pub use forecast::{
     Continuation, ForecastSettings, Futures, continuations, futures, geometric_median, hindcast_error,

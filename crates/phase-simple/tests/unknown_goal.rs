@@ -3,7 +3,7 @@
 use core::ops::ControlFlow;
 use phase_event::ObservedEvent;
 use phase_model::{AgentId, Attitude, Awareness, Intent, Knowledge, Level, Scene};
-use phase_simple::{Inference, Models, Simple};
+use phase_simple::{Inference, Models, NeutralKnowledge, Simple};
 use std::sync::Arc;
 
 /// Agent 0 clears an object out of a door for agent 1, which wants to be behind it.
@@ -19,13 +19,18 @@ fn scene(knows: Knowledge) -> Scene {
     scene
 }
 
-fn infer(method: &str, scene: &Scene) -> Inference {
+/// An event of a scene, as a method sees it.
+fn observed(scene: &Scene) -> ObservedEvent {
     let mut settings = phase_sim::SimulationSettings::default();
     (settings.min_steps, settings.max_steps) = (60, 60);
     let event = phase_sim::simulate(scene, 1, &settings).expect("an event");
     let rows = core::iter::once(event.initial.bodies)
         .chain(event.steps.iter().map(|step| phase_event::mean_state(step).bodies));
-    let observed = ObservedEvent::in_scene(scene, rows.collect()).expect("observed");
+    ObservedEvent::in_scene(scene, rows.collect()).expect("observed")
+}
+
+fn infer(method: &str, scene: &Scene) -> Inference {
+    let observed = observed(scene);
     let simple = Simple::named(method, &Arc::new(Models::bundled().expect("models"))).expect("a variant");
     let prepared = simple.prepare(&observed, 1);
     let inferred = simple.infer(&prepared, 1, &mut || ControlFlow::Continue(()));
@@ -49,4 +54,31 @@ fn how_an_agent_helps_tells_whether_it_knows_what_the_other_wants() {
     assert!(knowing > 0.5 && finding_out < 0.5, "{knowing} {finding_out}");
     // The method that assumes knowledge has nothing to say of it.
     assert_eq!(infer("simple", &scene(Knowledge::Goals)).knowledge, None);
+}
+
+#[test]
+fn what_neutral_agents_know_matters_for_their_beliefs_alone() {
+    let scene = scene(Knowledge::Nothing(Level::One));
+    let models = Arc::new(Models::bundled().expect("models"));
+    let evidence = |method: &str| {
+        let simple = Simple::named(method, &models).expect("a variant");
+        let found =
+            simple.intent_belief_evidence(&observed(&scene), &[4, 32], 1, &mut || ControlFlow::Continue(()));
+        found.expect("sound").expect("not cancelled").0
+    };
+    let latent = evidence("simple-knowledge");
+    let believed = |knows, level_zero| latent.intents(&NeutralKnowledge { knows, level_zero });
+    let all = [believed(1.0, 0.0), believed(0.0, 0.0), believed(0.0, 1.0)];
+    for of in all.iter().flatten().flatten() {
+        assert!((of.values().sum::<f64>() - 1.0).abs() < 1e-9, "{of:?}");
+    }
+    // The helper is not neutral in nearly all explanations; who is helped is, and supposes what it sees.
+    let helped = all.each_ref().map(|it| it[1][AgentId::ONE].clone());
+    assert!(helped[0] != helped[1] && helped[1] != helped[2], "{helped:?}");
+    let wanted = Intent { attitude: Attitude::Help, goal: scene.agents[AgentId::ONE].goal };
+    assert!(helped[0][&wanted] > 0.5 && helped[0][&wanted] > helped[2][&wanted], "{helped:?}");
+    // The method that assumes knowledge has nothing to average.
+    let assumed = evidence("simple");
+    let priors = [0.0, 1.0].map(|knows| NeutralKnowledge { knows, level_zero: 0.5 });
+    assert_eq!(assumed.intents(&priors[0]), assumed.intents(&priors[1]));
 }

@@ -11,6 +11,7 @@ use crate::{
     fit_events::FitEvents,
     fit_forecast,
     fit_inference::{self, options::FitInference},
+    fit_intents,
     fit_minds::{self, options::FitMinds},
     fit_reports::{self, options::FitReports},
 };
@@ -42,6 +43,8 @@ pub enum Command {
     FitInference(FitInference),
     /// Fit how strongly actions tell SIMPLE what agents know
     FitBeliefs(FitEvents),
+    /// Fit what SIMPLE takes neutral agents to know of the other's goal
+    FitIntents(FitEvents),
     /// Fit how SIMPLE combines simulated futures
     FitForecast(FitEvents),
     /// Fit how people report what they saw to raters of recordings
@@ -64,6 +67,7 @@ impl Interface for Command {
             Self::FitInference(arguments) => fit_inference::run(arguments, context),
             Self::FitMinds(arguments) => fit_minds::run(arguments, context),
             Self::FitBeliefs(arguments) => fit_beliefs::run(arguments, context),
+            Self::FitIntents(arguments) => fit_intents::run(arguments, context),
             Self::FitForecast(arguments) => fit_forecast::run(arguments, context),
             Self::FitReports(arguments) => fit_reports::run(arguments),
         }

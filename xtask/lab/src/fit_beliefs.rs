@@ -13,7 +13,6 @@ use phase_event::{BeliefOrder, MethodError, ProgressCallback, Recording};
 use phase_runs::{error::RunError, eval::TrueBeliefs};
 use phase_simple::{BeliefEvidence, KnowledgeSettings, Simple};
 use serde::{Deserialize, Serialize};
-use std::path::PathBuf;
 
 /// Inverse temperatures that are compared. A sixth is that of the evidence about intents.
 const INVERSE_TEMPERATURES: [f64; 8] = [1.0 / 6.0, 0.25, 0.35, 0.5, 0.7, 1.0, 1.4, 2.0];
@@ -32,8 +31,8 @@ struct KnownBeliefs {
 /// Any [`LabError`] about the files, or an interruption.
 pub fn run(arguments: &FitEvents, context: &Context) -> Result<(), LabError> {
     arguments.check_out([])?;
-    let own = simulated(arguments, &arguments.events, context)?;
-    let others = simulated(arguments, &arguments.held_out, context)?;
+    let own = arguments.read_simulated(&arguments.events, context)?;
+    let others = arguments.read_simulated(&arguments.held_out, context)?;
     interrupt::listen();
     let simple = Simple::bundled().map_err(RunError::from)?;
     let kept = KeptFigures::new("", arguments, context)?;
@@ -70,24 +69,6 @@ pub fn run(arguments: &FitEvents, context: &Context) -> Result<(), LabError> {
     }
     print_result(&text)?;
     Ok(())
-}
-
-/// The events of some files, all of which were simulated.
-fn simulated(
-    arguments: &FitEvents,
-    files: &[PathBuf],
-    context: &Context,
-) -> Result<Vec<Recording>, RunError> {
-    let mut all = Vec::new();
-    for file in files {
-        let recordings = arguments.read(file, context)?;
-        if let Some(measured) = recordings.iter().find(|it| it.simulation.is_none()) {
-            let rule = "was not simulated, so nobody knows its agents' beliefs";
-            return Err(RunError::Usage(format!("{}: event {}: {rule}", file.display(), measured.id)));
-        }
-        all.extend(recordings);
-    }
-    Ok(all)
 }
 
 /// Accuracy, Brier score and calibration error of what is not seen, and the last of what was moved unseen.

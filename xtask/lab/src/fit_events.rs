@@ -18,7 +18,7 @@ use std::{
     path::{Path, PathBuf},
 };
 
-/// Options of `fit-beliefs`, `fit-forecast` and `fit-inference`.
+/// Options of `fit-beliefs`, `fit-forecast`, `fit-inference` and `fit-intents`.
 #[derive(Args, Debug)]
 pub struct FitEvents {
     /// The events to fit to: a file in the format phase-events/1, or the folder of a dataset or of
@@ -70,6 +70,24 @@ impl FitEvents {
     pub(crate) fn read_all(&self, files: &[PathBuf], context: &Context) -> Result<Vec<Recording>, RunError> {
         let files = files.iter().map(|file| self.read(file, context)).collect::<Result<Vec<_>, _>>()?;
         Ok(files.into_iter().flatten().collect())
+    }
+
+    /// The events of all these files, which have to be simulated: nobody knows the beliefs of others.
+    pub(crate) fn read_simulated(
+        &self,
+        files: &[PathBuf],
+        context: &Context,
+    ) -> Result<Vec<Recording>, RunError> {
+        let mut all = Vec::new();
+        for file in files {
+            let recordings = self.read(file, context)?;
+            if let Some(measured) = recordings.iter().find(|it| it.simulation.is_none()) {
+                let rule = "was not simulated, so nobody knows its agents' beliefs";
+                return Err(RunError::Usage(format!("{}: event {}: {rule}", file.display(), measured.id)));
+            }
+            all.extend(recordings);
+        }
+        Ok(all)
     }
 }
 

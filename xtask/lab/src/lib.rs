@@ -8,6 +8,7 @@
 //! - `fit-beliefs` fits how strongly actions tell SIMPLE what agents know,
 //! - `fit-forecast` fits how SIMPLE combines simulated futures,
 //! - `fit-inference` fits how SIMPLE weighs its evidence,
+//! - `fit-intents` fits what SIMPLE takes neutral agents to know,
 //! - `fit-minds` fits the parameters of minds to recorded agents,
 //! - `fit-reports` fits how people report what they saw.
 //!
@@ -30,6 +31,7 @@ pub mod fit_beliefs;
 pub mod fit_events;
 pub mod fit_forecast;
 pub mod fit_inference;
+pub mod fit_intents;
 pub mod fit_minds;
 pub mod fit_reports;
 mod folds;

@@ -4,14 +4,15 @@ use super::{Answers, answers::AnswerSource, beliefs::check_simulated, input::Eve
 use crate::error::RunError;
 use phase_eval::{
     beliefs::asked_steps,
-    intents::{BelievedIntents, IntentEvent},
+    intents::{BelievedIntents, IntentEvent, IntentQuestion},
 };
 use phase_event::{MethodError, MethodResult, ObservedEvent, ProgressCallback, Recording, SimulationRecord};
 use phase_model::{AGENT_COUNT, AgentId, Attitude, Intent, Knowledge, Scene, json::FieldError};
 use phase_sim::SimulationSettings;
-use phase_simple::Simple;
+use phase_simple::{NeutralKnowledge, Simple};
+use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
-use std::path::Path;
+use std::{collections::BTreeMap, path::Path};
 
 /// A method that tells what agents take each other to want.
 pub(crate) enum IntentReader {
@@ -24,7 +25,10 @@ pub(crate) enum IntentReader {
 impl IntentReader {
     fn settings(&self) -> Value {
         match self {
-            Self::Simple(simple) => phase_event::Recogniser::settings(&**simple),
+            Self::Simple(simple) => json!({
+                "inference": phase_event::Recogniser::settings(&**simple),
+                "neutral_knowledge": NeutralKnowledge::default(),
+            }),
             Self::Even => Value::Null,
         }
     }
@@ -101,17 +105,49 @@ impl Task for IntentTask {
         seed: u64,
         tick: ProgressCallback<'_>,
     ) -> Result<Option<IntentEvent>, MethodError> {
-        let Some(simulation) = &recording.simulation else {
-            return Err(MethodError::new("was not simulated, so nobody knows its agents' beliefs"));
-        };
         let observed = recording.observed().map_err(MethodError::new)?;
         let steps = asked_steps(observed.steps());
         let asked = self.answers.answer(event, |method| method.read(&observed, &steps, seed, tick))?;
         let Some((answers, details, cpu_seconds)) = asked else { return Ok(None) };
-        let truth = truth(simulation, &steps).map_err(MethodError::new)?;
-        let questions = IntentEvent::questions(&steps, &truth, &answers, intents_of(&simulation.event.scene));
-        let questions = questions.map_err(MethodError::new)?;
+        let questions = TrueIntents::of(recording, &steps)?.questions(&answers).map_err(MethodError::new)?;
         Ok(Some(IntentEvent { id: event.id.clone(), questions, cpu_seconds, details }))
+    }
+}
+
+/// The intents that agents of a simulated event take each other to have after some steps.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
+pub struct TrueIntents {
+    steps: Vec<usize>,
+    /// After each step and for each agent, with shares of its particles.
+    believed: Vec<[Vec<(Intent, f64)>; AGENT_COUNT]>,
+    intents: [Intent; AGENT_COUNT],
+}
+
+impl TrueIntents {
+    /// The intents in the particles of each agent after some steps of an event.
+    ///
+    /// # Errors
+    /// [`MethodError`] if the event was not simulated, or its settings are not those of a simulation.
+    pub fn of(recording: &Recording, steps: &[usize]) -> Result<Self, MethodError> {
+        let Some(simulation) = &recording.simulation else {
+            return Err(MethodError::new("was not simulated, so nobody knows its agents' beliefs"));
+        };
+        let believed = truth(simulation, steps).map_err(MethodError::new)?;
+        Ok(Self {
+            steps: steps.to_vec(),
+            believed: believed.into_iter().map(|it| it.map(|of| of.into_iter().collect())).collect(),
+            intents: intents_of(&simulation.event.scene),
+        })
+    }
+
+    /// The questions about them, with the answers of a method.
+    ///
+    /// # Errors
+    /// A sentence, if the answers are too few, or no probabilities.
+    pub fn questions(&self, answers: &[BelievedIntents]) -> Result<Vec<IntentQuestion>, String> {
+        let maps = |it: &[Vec<(Intent, f64)>; AGENT_COUNT]| it.clone().map(BTreeMap::from_iter);
+        let believed: Vec<BelievedIntents> = self.believed.iter().map(maps).collect();
+        IntentEvent::questions(&self.steps, &believed, answers, self.intents)
     }
 }
 

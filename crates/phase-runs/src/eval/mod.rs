@@ -21,6 +21,7 @@ pub(crate) mod trajectories;
 mod unlabelled;
 
 pub use beliefs::TrueBeliefs;
+pub use intents::TrueIntents;
 pub use task::{Evaluated, REPORT_FILE};
 pub use unlabelled::Answered;
 

@@ -3,9 +3,9 @@
 use super::variants::{VARIANTS, Variant};
 use crate::{
     Algorithm, AlternativeAgents, BeliefEvidence, Cues, ForecastSettings, Guidance, Guide, ImaginedAgents,
-    Inference, InferenceError, InferenceSettings, InversePlanningSettings, KnowledgeOfGoal,
-    KnowledgeSettings, MindPosterior, Models, ModelsError, Observer, ObserverError, PreparedEvent, believed,
-    futures, infer, knowledge,
+    Inference, InferenceError, InferenceSettings, IntentBeliefEvidence, InversePlanningSettings,
+    KnowledgeOfGoal, KnowledgeSettings, MindPosterior, Models, ModelsError, NeutralKnowledge, Observer,
+    ObserverError, PreparedEvent, believed, futures, infer, knowledge,
 };
 use core::ops::ControlFlow;
 use phase_event::{
@@ -234,9 +234,29 @@ impl Simple {
         Ok(evidence.map(|evidence| (evidence, details(&prepared, &inference))))
     }
 
+    /// The evidence that the motion of an event gives about the intents that each agent takes the other to
+    /// have after some steps; `None` if `tick` cancelled it. A variant without latent knowledge takes every
+    /// agent to know what the other wants.
+    ///
+    /// # Errors
+    /// [`MethodError`] if the inference fails.
+    pub fn intent_belief_evidence(
+        &self,
+        observed: &ObservedEvent,
+        steps: &[usize],
+        seed: u64,
+        tick: ProgressCallback<'_>,
+    ) -> MethodResult<IntentBeliefEvidence> {
+        let prepared = self.prepare(observed, seed);
+        let inference = self.infer(&prepared, seed, tick).map_err(MethodError::new)?;
+        Ok(inference.map(|inference| {
+            let prepared = with_our_minds(prepared);
+            (believed::evidence(&prepared, &inference, steps), details(&prepared, &inference))
+        }))
+    }
+
     /// The intents that each agent takes the other to have after some steps of an event, with their
-    /// probabilities; `None` if `tick` cancelled it. A variant without latent knowledge takes every agent to
-    /// know what the other wants.
+    /// probabilities; `None` if `tick` cancelled it.
     ///
     /// # Errors
     /// [`MethodError`] if the inference fails.
@@ -247,12 +267,8 @@ impl Simple {
         seed: u64,
         tick: ProgressCallback<'_>,
     ) -> MethodResult<Vec<[BTreeMap<Intent, f64>; AGENT_COUNT]>> {
-        let prepared = self.prepare(observed, seed);
-        let inference = self.infer(&prepared, seed, tick).map_err(MethodError::new)?;
-        Ok(inference.map(|inference| {
-            let prepared = with_our_minds(prepared);
-            (believed::believed(&prepared, &inference, steps), details(&prepared, &inference))
-        }))
+        let found = self.intent_belief_evidence(observed, steps, seed, tick)?;
+        Ok(found.map(|(evidence, details)| (evidence.intents(&NeutralKnowledge::default()), details)))
     }
 }
 

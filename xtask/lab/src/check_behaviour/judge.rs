@@ -9,6 +9,7 @@ use phase_evidence::{
 };
 use phase_model::{AgentId, Entity, Goal, ObjectId, Scene, State, layout::room_of};
 use phase_navigation::{IMPASSABLE_COST, Map};
+use phase_perception::observed_set;
 
 /// Maximum number of steps for an agent to release its object and come to rest after its goal is reached.
 const SETTLING_STEPS: usize = 8;
@@ -57,6 +58,7 @@ pub(super) fn judge(part: &BehaviourTest, scene: &Scene, track: &Track, control:
         Criterion::Chase => case.chase(effect),
         Criterion::Compete => case.compete(goal),
         Criterion::Rest => case.rest(),
+        Criterion::Unseen => case.unseen(goal),
         Criterion::WrongPlace(wanted) => case.wrong_place(goal, wanted),
     };
     Verdict { success, shown, with, without, notes }
@@ -239,6 +241,34 @@ impl Case<'_> {
             None => "saw neither".into(),
         };
         (look.is_some_and(|look| look.at_old_place == wanted), Some(true), notes)
+    }
+
+    /// Whether the hinderer holds the object for some time, and the victim does not perceive the hinderer in
+    /// most of it. Notes also tell how much of the hinderer's approach to the object is unseen.
+    fn unseen(&self, goal: Goal) -> Assessment {
+        let hinderer = self.part.judged.other();
+        let object = object_of(goal).unwrap_or(ObjectId::ZERO);
+        let physics = &self.track.physics;
+        let is_unseen = |state: &&State| {
+            !observed_set(physics, state, self.part.judged).contains(Entity::Agent(hinderer))
+        };
+        let held: Vec<&State> = self.track.states.iter().filter(|it| it.holds(hinderer, object)).collect();
+        let unseen = held.iter().copied().filter(is_unseen).count();
+        let first = self.track.states.iter().position(|state| state.holds(hinderer, object));
+        let way = &self.track.states[..first.map_or(self.track.states.len(), |first| first + 1)];
+        let distance = |state: &State| {
+            state.position(Entity::Agent(hinderer)).distance(state.position(Entity::Object(object)))
+        };
+        let closer = |pair: &[State]| (distance(&pair[0]) - distance(&pair[1])).max(0.0);
+        let approach: f32 = way.windows(2).map(closer).sum();
+        let hidden: f32 = way.windows(2).filter(|pair| is_unseen(&&pair[1])).map(closer).sum();
+        let first = first.map_or_else(|| "never".into(), |step| format!("from step {step}"));
+        let notes = format!(
+            "approached {approach:.1} u, {hidden:.1} u unseen; held {first}, {} steps, {unseen} unseen",
+            held.len()
+        );
+        let shown = held.len() >= MIN_VISIBLE_STEPS;
+        (shown && 2 * unseen > held.len(), Some(shown), notes)
     }
 
     fn held_anything(&self, agent: AgentId) -> usize {

@@ -186,6 +186,7 @@ mod tests {
     use super::{files, judge::judge, rows::PARTS, sets::SceneSet};
     use phase_dataset::phase_events;
     use phase_evidence::Track;
+    use phase_model::{AgentId, Entity, Grip, ObjectId, Side};
 
     /// An event in which nothing happens is not a success, with or without a counterfactual.
     #[test]
@@ -200,6 +201,39 @@ mod tests {
                     assert!(!verdict.success, "{} {}: {}", file.display(), recording.id, verdict.notes);
                 }
             }
+        }
+    }
+
+    /// Held from step 1 on, and seen in none, half or all but two of nine steps.
+    #[test]
+    fn holding_is_unseen_while_the_victim_looks_away() {
+        let part = PARTS.iter().find(|part| part.row == 12).expect("the row of hidden hindering");
+        let file = &files(part, &SceneSet::First.folders())[0];
+        let recordings = phase_events::read(file).expect("readable");
+        let scene = &recordings.first().expect("a scene").scene;
+        let [hinderer, victim] = [AgentId::ZERO, AgentId::ONE].map(Entity::Agent);
+        let judged = |looking: usize| {
+            let state = |step: usize| {
+                let mut state = scene.initial_state();
+                let way = state.position(hinderer) - state.position(victim);
+                let towards = libm::atan2f(-way.x, way.y);
+                let away = if step > looking { core::f32::consts::PI } else { 0.0 };
+                state.body_mut(victim).angle = towards + away;
+                let object = ObjectId::ZERO;
+                state.grips[0] = (step > 0).then_some(Grip { object, side: Side::Head, relative_angle: 0.0 });
+                state
+            };
+            let track = Track { physics: scene.physics(), states: (0..10).map(state).collect() };
+            let verdict = judge(part, scene, &track, None);
+            (verdict.success, verdict.shown, verdict.notes)
+        };
+        for (looking, success) in [(0, true), (4, true), (5, false), (9, false)] {
+            let (is_success, shown, notes) = judged(looking);
+            assert_eq!((is_success, shown), (success, Some(true)), "{notes}");
+            assert!(
+                notes.ends_with(&format!("held from step 1, 9 steps, {} unseen", 9 - looking)),
+                "{notes}"
+            );
         }
     }
 }

@@ -14,7 +14,7 @@ pub struct CheckBehaviour {
     #[command(flatten)]
     pub json: JsonFile,
     /// Only these rows of the table in docs/results/behaviour.md
-    #[arg(long, value_name = "N", num_args = 1.., value_parser = value_parser!(u8).range(1..=11))]
+    #[arg(long, value_name = "N", num_args = 1.., value_parser = value_parser!(u8).range(1..=12))]
     pub row: Vec<u8>,
     /// Events of each scene: seeds 1 to N, which use the five reflections in rotation
     #[arg(long, value_name = "N", default_value_t = 10, value_parser = value_parser!(u16).range(1..=10_000))]

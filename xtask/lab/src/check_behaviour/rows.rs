@@ -7,7 +7,8 @@ use phase_model::AgentId;
 pub(super) struct BehaviourTest {
     /// The row, from 1.
     pub row: u8,
-    /// The file in a set's folder without `.json`; begins with the row.
+    /// The file in a set's folder without `.json`; begins with the row, or with the one whose scenes it
+    /// shares.
     pub name: &'static str,
     /// The intended behaviour, in words.
     pub title: &'static str,
@@ -49,6 +50,8 @@ pub(super) enum Criterion {
     Compete,
     /// Every agent reaches its goal, releases its object, and stays still to the end of a long event.
     Rest,
+    /// The hinderer holds the object, most of the time without being perceived by the victim.
+    Unseen,
     /// Once the agent acts, it looks where the object of its goal was at the start before it sees the object,
     /// or sees the object first. By then the object has to have been moved to another room unseen.
     WrongPlace(bool),
@@ -86,6 +89,7 @@ impl Criterion {
             Self::Hinder(_) => "goal missed only with the hinderer, or reached at least a tenth later",
             Self::Chase => "chaser heads for the other, flight delays the catch by a tenth or prevents it",
             Self::Compete => "both have had the object, and one won or both pulled for 5 steps",
+            Self::Unseen => "the object held for 3 steps, more than half of them unseen by the victim",
             Self::WrongPlace(true) => "the place that the object has left seen before the object",
             Self::WrongPlace(false) => "the object seen before the place that it has left",
             Self::Rest => "goals reached, nothing held, everybody still from 8 steps later to the end",
@@ -114,10 +118,12 @@ const HELPING: BehaviourTest = BehaviourTest {
 };
 const HINDERING: BehaviourTest =
     BehaviourTest { row: 6, control: Some(AgentId::ZERO), judged: AgentId::ONE, ..BOTH };
+const UNSEEN: BehaviourTest =
+    BehaviourTest { row: 12, control: None, criterion: Criterion::Unseen, ..HINDERING };
 const SEARCHING: BehaviourTest = BehaviourTest { row: 2, name: "02-search", ..ALONE };
 
 /// Everything that is checked, in order.
-pub(super) const PARTS: [BehaviourTest; 22] = [
+pub(super) const PARTS: [BehaviourTest; 25] = [
     BehaviourTest { row: 1, name: "01-landmark", title: "going to a landmark through doors", ..ALONE },
     BehaviourTest {
         title: "searching at lambda 0.05: the near region first",
@@ -238,4 +244,7 @@ pub(super) const PARTS: [BehaviourTest; 22] = [
         criterion: Criterion::WrongPlace(false),
         ..BOTH
     },
+    BehaviourTest { name: "06b-take", title: "taking the object away unseen", ..UNSEEN },
+    BehaviourTest { name: "06c-drag", title: "dragging the object unseen", ..UNSEEN },
+    BehaviourTest { name: "06d-hide", title: "hiding the object unseen", ..UNSEEN },
 ];

@@ -1,6 +1,10 @@
 //! Simulates one trial and its counterfactual.
 
-use super::{judge, report::Trial, rows::BehaviourTest};
+use super::{
+    judge,
+    report::Trial,
+    rows::{BehaviourTest, Criterion},
+};
 use core::ops::ControlFlow;
 use phase_cli::{context::Context, progress::Progress};
 use phase_dataset::event_cache::EventCache;
@@ -38,7 +42,11 @@ pub(super) struct TrialRunner {
 
 /// The unique name of a part: parts may share scenes.
 pub(super) fn key(part: &BehaviourTest) -> String {
-    part.lambda.map_or_else(|| part.name.into(), |lambda| format!("{}-lambda{lambda}", part.name))
+    match (part.lambda, part.criterion) {
+        (Some(lambda), _) => format!("{}-lambda{lambda}", part.name),
+        (None, Criterion::Unseen) => format!("{}-unseen", part.name),
+        (None, _) => part.name.into(),
+    }
 }
 
 impl TrialRunner {

@@ -29,7 +29,7 @@ fn report(path: &Path) -> Value {
 fn rows_and_seeds_must_be_there() {
     let folder = folder(&[]);
     for (arguments, said) in
-        [(["--row", "0"], "--row"), (["--row", "11"], "11"), (["--seeds", "0"], "--seeds")]
+        [(["--row", "0"], "--row"), (["--row", "13"], "13"), (["--seeds", "0"], "--seeds")]
     {
         let sentence = refuse(folder.path(), &check(&arguments));
         assert!(sentence.contains(said), "{sentence}");

@@ -5,6 +5,7 @@ mod check_minds;
 mod check_physics;
 mod fit_beliefs;
 mod fit_inference;
+mod fit_intents;
 mod fit_minds;
 mod fit_reports;
 // Shared with the tests of the program `phase`; not everything is used here.
