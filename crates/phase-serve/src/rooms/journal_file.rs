@@ -36,8 +36,8 @@ impl JournalFile {
         }
     }
 
-    /// A journal that goes on. Of its last line, whose step nobody has seen if it has no end, nothing stays: what
-    /// counts is the first `whole` bytes.
+    /// A journal that goes on. Of its last line, whose step nobody has seen if it has no end, nothing stays:
+    /// only the first `whole` bytes count.
     pub(super) fn reopen(path: &Path, whole: usize) -> Result<Self, WriteError> {
         let failed = |source| WriteError { path: path.to_owned(), action: "continue", source };
         let file = OpenOptions::new().append(true).open(path).map_err(failed)?;

@@ -1,5 +1,5 @@
-//! The tables of a file of answers, and that a file has no others: a view in the place of a table may take for
-//! ever to read, and a trigger may drop answers without a word.
+//! The tables of a file of answers. A file has no others: a view in the place of a table may take for ever to
+//! read, and a trigger may drop answers without a word.
 
 use super::StoreProblem;
 use rusqlite::Connection;
