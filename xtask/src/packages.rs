@@ -24,6 +24,7 @@ pub const PACKAGES: [(&str, &[(&str, &str)]); 4] = [
             ("fit-beliefs", "Fit how strongly actions tell SIMPLE what agents know"),
             ("fit-forecast", "Fit how SIMPLE combines simulated futures"),
             ("fit-inference", "Fit how SIMPLE weighs its evidence to events whose labels are known"),
+            ("fit-intents", "Fit what SIMPLE takes neutral agents to know of the other's goal"),
             ("fit-minds", "Fit the parameters of the minds to recordings or events whose labels are known"),
             ("fit-reports", "Fit how people report what they saw to raters of recordings"),
         ],
