@@ -5,7 +5,7 @@
 //! because others are silent.
 
 use crate::{
-    limits::network,
+    limits::{Bucket, network},
     log,
     places::{Guest, Places},
 };
@@ -22,6 +22,7 @@ use std::{
     io::{self, IoSlice},
     net::SocketAddr,
     sync::Arc,
+    time::Instant,
 };
 use tokio::{
     io::{AsyncRead, AsyncWrite, ReadBuf},
@@ -41,6 +42,9 @@ const CONNECTIONS_OF_ADDRESS: usize = 100;
 const HEAD_TIME: Duration = Duration::from_secs(15);
 /// Time after which a client that takes nothing of what is sent to it is gone.
 const STALLED: Duration = Duration::from_secs(15);
+/// Bytes of a connection that are read at once, and then in a second. What is small, such as an empty fragment
+/// of a message, is work all the same.
+const BYTES: (f64, f64) = (1024.0 * 1024.0, 256.0 * 1024.0);
 /// Largest head of a request (bytes).
 const LARGEST_HEAD: usize = 16 * 1024;
 /// Time in which open connections have to end when the server stops.
@@ -96,7 +100,13 @@ async fn answer(
     let guest = Arc::new(guest);
     // Steps are small and late ones are of no use; without it they are only sent together.
     let _ = stream.set_nodelay(true);
-    let io = TokioIo::new(Watched { stream, guest: Arc::downgrade(&guest), stalled: None });
+    let io = TokioIo::new(Watched {
+        stream,
+        guest: Arc::downgrade(&guest),
+        stalled: None,
+        bucket: Bucket::new(BYTES.0, BYTES.1, Instant::now()),
+        pause: None,
+    });
     let service = service_fn(move |mut request: Request<Incoming>| {
         request.extensions_mut().insert(ConnectInfo(peer));
         // It is always ready.
@@ -121,11 +131,15 @@ async fn answer(
     let _ = connection.await;
 }
 
-/// A stream that knows when it was last used, and fails if what is sent is not taken.
+/// A stream that knows when it was last used, reads no more than [`BYTES`], and fails if what is sent is not
+/// taken.
 struct Watched {
     stream: TcpStream,
     guest: std::sync::Weak<Guest>,
     stalled: Option<Pin<Box<Sleep>>>,
+    bucket: Bucket,
+    /// The time until more is read.
+    pause: Option<Pin<Box<Sleep>>>,
 }
 
 impl Watched {
@@ -154,7 +168,14 @@ impl AsyncRead for Watched {
         context: &mut Context<'_>,
         buffer: &mut ReadBuf<'_>,
     ) -> Poll<io::Result<()>> {
+        if let Some(pause) = &mut self.pause {
+            ready!(pause.as_mut().poll(context));
+            self.pause = None;
+        }
+        let before = buffer.filled().len();
         let result = Pin::new(&mut self.stream).poll_read(context, buffer);
+        let pause = self.bucket.spend(buffer.filled().len() - before, Instant::now());
+        self.pause = (!pause.is_zero()).then(|| Box::pin(sleep(pause)));
         if let (true, Some(guest)) = (result.is_ready(), self.guest.upgrade()) {
             guest.used();
         }

@@ -4,7 +4,7 @@ use std::{
     collections::HashMap,
     net::{IpAddr, Ipv6Addr},
     sync::{Mutex, PoisonError},
-    time::Instant,
+    time::{Duration, Instant},
 };
 
 /// So many addresses are remembered at most; then those that have asked for nothing lately are forgotten.
@@ -28,14 +28,25 @@ impl Bucket {
 
     /// Takes one, if there is one.
     pub(crate) fn take(&mut self, now: Instant) -> bool {
-        let passed = now.saturating_duration_since(self.filled).as_secs_f64();
-        self.level = (self.level + passed * self.rate).min(self.size);
-        self.filled = now;
+        self.fill(now);
         let allowed = self.level >= 1.0;
         if allowed {
             self.level -= 1.0;
         }
         allowed
+    }
+
+    /// Takes this many, whether there are so many or not; how long it is until none is owed.
+    pub(crate) fn spend(&mut self, count: usize, now: Instant) -> Duration {
+        self.fill(now);
+        self.level -= count as f64;
+        Duration::from_secs_f64((-self.level / self.rate).max(0.0))
+    }
+
+    fn fill(&mut self, now: Instant) {
+        let passed = now.saturating_duration_since(self.filled).as_secs_f64();
+        self.level = (self.level + passed * self.rate).min(self.size);
+        self.filled = now;
     }
 
     fn is_full(&self, now: Instant) -> bool {
@@ -132,7 +143,7 @@ impl Drop for Doing<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use std::{net::Ipv4Addr, time::Duration};
+    use std::net::Ipv4Addr;
 
     #[test]
     fn buckets_fill_at_their_rate() {
@@ -144,6 +155,10 @@ mod tests {
         assert_eq!((0..5).filter(|_| bucket.take(later)).count(), 2);
         let much_later = start + Duration::from_secs(100);
         assert_eq!((0..9).filter(|_| bucket.take(much_later)).count(), 3);
+        let at_last = start + Duration::from_secs(200);
+        assert_eq!(bucket.spend(2, at_last), Duration::ZERO);
+        assert_eq!(bucket.spend(5, at_last), Duration::from_secs(2));
+        assert!(!bucket.take(at_last + Duration::from_secs(2)));
     }
 
     #[test]

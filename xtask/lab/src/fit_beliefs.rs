@@ -3,11 +3,8 @@
 //! The inverse temperatures of the likelihood of decisions are compared on a grid by the mean Brier score of
 //! beliefs about entities out of sight, in events whose particles are known.
 
-use crate::{
-    error::LabError,
-    fit_events::{FitEvents, KeptFigures},
-};
-use phase_cli::{context::Context, interrupt, output::print_result};
+use crate::{error::LabError, fit_events::FitEvents};
+use phase_cli::{context::Context, output::print_result};
 use phase_eval::beliefs::{BeliefEvent, BeliefScores, BeliefSummary, asked_steps};
 use phase_event::{BeliefOrder, MethodError, ProgressCallback, Recording};
 use phase_runs::{error::RunError, eval::TrueBeliefs};
@@ -30,21 +27,11 @@ struct KnownBeliefs {
 /// # Errors
 /// Any [`LabError`] about the files, or an interruption.
 pub fn run(arguments: &FitEvents, context: &Context) -> Result<(), LabError> {
-    arguments.check_out([])?;
-    let own = arguments.read_simulated(&arguments.events, context)?;
-    let others = arguments.read_simulated(&arguments.held_out, context)?;
-    interrupt::listen();
     let simple = Simple::bundled().map_err(RunError::from)?;
-    let kept = KeptFigures::new("", arguments, context)?;
-    let known = |recordings: &[Recording]| {
-        let all: Vec<&Recording> = recordings.iter().collect();
-        kept.of("reading the beliefs", &all, 1, |recording, tick| {
-            let found = known_beliefs(recording, &simple, arguments.seed, tick);
-            found.map_err(|source| RunError::Method { id: recording.id.clone(), source })
-        })
+    let compute = |recording: &Recording, tick: ProgressCallback<'_>| {
+        known_beliefs(recording, &simple, arguments.seed, tick)
     };
-    let own = known(&own)?;
-    let others = known(&others)?;
+    let [own, others] = arguments.of_simulated("reading the beliefs", context, compute)?;
     let mut text = format!("{:>6}{:>34}{:>34}\n", "", "fitted to", "held out");
     text += &format!("{:>6}", "1/T");
     text += &format!("{:>10} {:>7} {:>7} {:>7}", "accuracy", "Brier", "ECE", "moved").repeat(2);

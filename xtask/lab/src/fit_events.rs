@@ -8,8 +8,8 @@ use crate::{
 };
 use clap::{Args, value_parser};
 use core::ops::ControlFlow;
-use phase_cli::{context::Context, error::CliError, json_file, parallel::Jobs};
-use phase_event::{ProgressCallback, Recording};
+use phase_cli::{context::Context, error::CliError, interrupt, json_file, parallel::Jobs};
+use phase_event::{MethodError, ProgressCallback, Recording};
 use phase_files::checksum::{hexadecimal, sha256};
 use phase_runs::{error::RunError, event_writer::program, interrupt::requested, parallel::make_all, words};
 use serde::{Serialize, de::DeserializeOwned};
@@ -88,6 +88,31 @@ impl FitEvents {
             all.extend(recordings);
         }
         Ok(all)
+    }
+}
+
+impl FitEvents {
+    /// What is computed of the events to fit to, and of those held out, all of which have to be simulated.
+    /// `compute` returns `None` if its tick breaks.
+    pub(crate) fn of_simulated<T: Clone + Send + Sync + Serialize + DeserializeOwned>(
+        &self,
+        activity: &str,
+        context: &Context,
+        compute: impl Fn(&Recording, ProgressCallback<'_>) -> Result<Option<T>, MethodError> + Sync,
+    ) -> Result<[Vec<T>; 2], LabError> {
+        self.check_out([])?;
+        let own = self.read_simulated(&self.events, context)?;
+        let others = self.read_simulated(&self.held_out, context)?;
+        interrupt::listen();
+        let kept = KeptFigures::new("", self, context)?;
+        let known = |recordings: &[Recording]| {
+            let all: Vec<&Recording> = recordings.iter().collect();
+            kept.of(activity, &all, 1, |recording, tick| {
+                let found = compute(recording, tick);
+                found.map_err(|source| RunError::Method { id: recording.id.clone(), source })
+            })
+        };
+        Ok([known(&own)?, known(&others)?])
     }
 }
 

@@ -3,11 +3,8 @@
 //! Prior probabilities are compared on a grid by the mean Brier score of intents that agents take each other
 //! to have, in events whose particles are known.
 
-use crate::{
-    error::LabError,
-    fit_events::{FitEvents, KeptFigures},
-};
-use phase_cli::{context::Context, interrupt, output::print_result};
+use crate::{error::LabError, fit_events::FitEvents};
+use phase_cli::{context::Context, output::print_result};
 use phase_eval::{
     beliefs::asked_steps,
     intents::{IntentEvent, IntentSummary},
@@ -38,24 +35,15 @@ struct KnownIntents {
 /// # Errors
 /// Any [`LabError`] about the files, or an interruption.
 pub fn run(arguments: &FitEvents, context: &Context) -> Result<(), LabError> {
-    arguments.check_out([])?;
-    let own = arguments.read_simulated(&arguments.events, context)?;
-    let others = arguments.read_simulated(&arguments.held_out, context)?;
-    interrupt::listen();
     let models = Arc::new(Models::bundled().map_err(RunError::from)?);
     let Some(simple) = Simple::named(METHOD, &models) else {
         return Err(RunError::Usage(format!("{METHOD} is no method of this program")).into());
     };
-    let kept = KeptFigures::new("", arguments, context)?;
-    let known = |recordings: &[Recording]| {
-        let all: Vec<&Recording> = recordings.iter().collect();
-        kept.of("reading what each takes the other to want", &all, 1, |recording, tick| {
-            let found = known_intents(recording, &simple, arguments.seed, tick);
-            found.map_err(|source| RunError::Method { id: recording.id.clone(), source })
-        })
+    let compute = |recording: &Recording, tick: ProgressCallback<'_>| {
+        known_intents(recording, &simple, arguments.seed, tick)
     };
-    let own = known(&own)?;
-    let others = known(&others)?;
+    let activity = "reading what each takes the other to want";
+    let [own, others] = arguments.of_simulated(activity, context, compute)?;
     let mut text = format!("{:>5} {:>7}{:>34}{:>34}\n", "", "", "fitted to", "held out");
     text += &format!("{:>5} {:>7}", "knows", "level 0");
     text += &format!("{:>10} {:>7} {:>7} {:>7}", "accuracy", "Brier", "ECE", "wrong").repeat(2);

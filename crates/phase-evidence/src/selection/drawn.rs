@@ -21,8 +21,8 @@ use phase_model::{AgentId, AgentSpec, Entity, EventKind, Goal, ObjectId, Scene, 
 const MIN_PROGRESS: f32 = 3.0;
 /// Maximum share of an event in which nothing moves, in percent.
 const MAX_STILL_PERCENT: usize = 75;
-/// Maximum time for which every body may stay in its place (steps; 6 s). Recordings end 2 s after the goals
-/// have been reached.
+/// Time after which an event is lifeless if every body has stayed in its place (steps; 6 s). Most recordings
+/// end 2 s after the goals have been reached.
 const MAX_STANDSTILL: usize = 24;
 /// A body that is nearer than this to where it was stays in its place (u): agents that push each other
 /// tremble.
@@ -76,8 +76,8 @@ pub(super) fn judge(
     Ok(counterfactual.map(|it| Counterfactual { cut: true, ..it }))
 }
 
-/// Something moves in enough of the steps, and for no more than 6 s on end everything stays in its place:
-/// nobody is stuck, and what is done is followed by a rest, not by most of the event.
+/// Something moves in enough of the steps, and never does everything stay in its place for 6 s: nobody is
+/// stuck, and what is done is followed by a rest, not by most of the event.
 fn lively(track: &Track) -> Result<(), RejectionReason> {
     require(!is_lifeless_however_it_goes_on(track, track.steps()), RejectionReason::Lifeless)
 }

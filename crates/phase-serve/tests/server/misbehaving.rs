@@ -131,6 +131,38 @@ fn unfinished_requests_end() {
     drop(crowd);
 }
 
+/// Fragments of a message are no messages, and may be empty; the server reads so many bytes a second.
+#[test]
+fn fragments_without_end_are_read_slowly() {
+    let server = Running::start(settings());
+    let upgrade = "GET /play/socket HTTP/1.1\r\nHost: 127.0.0.1\r\nConnection: Upgrade\r\nUpgrade: websocket\r\n\
+                   Sec-WebSocket-Version: 13\r\nSec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n\r\n";
+    let mut stream = send(&server, upgrade);
+    let mut answer = [0; 12];
+    stream.read_exact(&mut answer).expect("an answer");
+    assert_eq!(&answer, b"HTTP/1.1 101");
+    // A message of text begins, and goes on with nothing.
+    stream.write_all(&[0x01, 0x80, 0, 0, 0, 0]).expect("written");
+    let fragments = [0x00, 0x80, 0, 0, 0, 0].repeat(10_000);
+    stream.set_nonblocking(true).expect("a socket");
+    let (begun, mut taken, mut at) = (Instant::now(), 0, 0);
+    while begun.elapsed() < Duration::from_secs(3) {
+        match stream.write(&fragments[at..]) {
+            Ok(count) => {
+                taken += count;
+                at = (at + count) % fragments.len();
+            }
+            Err(error) if error.kind() == std::io::ErrorKind::WouldBlock => {
+                std::thread::sleep(Duration::from_millis(1));
+            }
+            Err(error) => panic!("{error}"),
+        }
+    }
+    // Beside what was read, the system keeps some.
+    assert!(taken < 32 << 20, "{taken} bytes");
+    assert_eq!(server.get("/").status, 200);
+}
+
 /// A file that is sent to somebody who does not take it is given up.
 #[test]
 fn answers_that_nobody_takes_end() {
