@@ -42,8 +42,8 @@ const CONNECTIONS_OF_ADDRESS: usize = 100;
 const HEAD_TIME: Duration = Duration::from_secs(15);
 /// Time after which a client that takes nothing of what is sent to it is gone.
 const STALLED: Duration = Duration::from_secs(15);
-/// Bytes of a connection that are read at once, and then in a second. What is small, such as an empty fragment
-/// of a message, is work all the same.
+/// Bytes of a connection that are read at once, and then in a second. Something small, such as an empty
+/// fragment of a message, is work all the same.
 const BYTES: (f64, f64) = (1024.0 * 1024.0, 256.0 * 1024.0);
 /// Largest head of a request (bytes).
 const LARGEST_HEAD: usize = 16 * 1024;

@@ -92,7 +92,7 @@ impl FitEvents {
 }
 
 impl FitEvents {
-    /// What is computed of the events to fit to, and of those held out, all of which have to be simulated.
+    /// Computes something of each event to fit to, and of each held out, all of which have to be simulated.
     /// `compute` returns `None` if its tick breaks.
     pub(crate) fn of_simulated<T: Clone + Send + Sync + Serialize + DeserializeOwned>(
         &self,
