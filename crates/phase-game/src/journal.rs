@@ -138,11 +138,12 @@ pub fn whole(bytes: &[u8]) -> Result<&str, JournalError> {
 /// # Errors
 /// [`JournalError::Entry`].
 pub fn entries(text: &str) -> Result<Vec<Entry>, JournalError> {
-    let whole = text.rfind('\n').map_or("", |end| &text[..end]);
+    let Some((whole, _)) = text.rsplit_once('\n') else { return Ok(Vec::new()) };
     let entry = |(k, line): (usize, &str)| {
         parse_as(line).map_err(|source| JournalError::Entry { number: k + 1, source })
     };
-    whole.lines().enumerate().map(entry).collect()
+    // An empty line is none of a journal, wherever it is.
+    whole.split('\n').enumerate().map(entry).collect()
 }
 
 /// Whether the game of a journal is over, so that nothing of it is left to play. Only its first and last

@@ -25,7 +25,12 @@ impl Room {
         }
         let players = settings.players;
         let mut room = Self::open(&room, keys, *settings, rounds, now)?;
-        for (number, entry) in entries {
+        // The game's end, after which there is nothing.
+        let over = |rest: &mut dyn Iterator<Item = (usize, Entry)>| match rest.next() {
+            None => Ok(None),
+            Some((number, _)) => Err(JournalError::Order { number }),
+        };
+        while let Some((number, entry)) = entries.next() {
             match entry {
                 Entry::Began { round } if round == room.round && !room.begun => room.begun = true,
                 // A round that is over has no more steps.
@@ -42,12 +47,15 @@ impl Room {
                 }
                 Entry::Ended { round } if round == room.round && room.begun => {
                     if round + 1 == room.rounds.len() {
-                        // Only that it is over is missing.
-                        return Ok(None);
+                        // That it is over may be missing.
+                        return match entries.next() {
+                            None | Some((_, Entry::Over { .. })) => over(&mut entries),
+                            Some((number, _)) => Err(JournalError::Order { number }),
+                        };
                     }
                     room.go_to(round + 1).map_err(RoomError::from)?;
                 }
-                Entry::Over { .. } => return Ok(None),
+                Entry::Over { .. } => return over(&mut entries),
                 _ => return Err(JournalError::Order { number }),
             }
         }

@@ -3,7 +3,7 @@
 use crate::support::{RED, Table, lines, round, settings};
 use core::time::Duration;
 use phase_game::{
-    Doing, Entry, FromPlayer, Player, Room,
+    Doing, Ending, Entry, FromPlayer, Player, Room,
     journal::{Actions, entries, is_over, whole as journal_text},
 };
 use phase_model::Action;
@@ -73,6 +73,13 @@ fn damaged_journals_are_refused() {
     let longer = [&journal[..end], &journal[end - 1..end], &journal[end..]].concat();
     assert!(refused(longer).contains(&format!("entry {}", end + 1)));
     assert!(is_over(&[journal[0].clone(), Entry::Ended { round: usize::MAX }]));
+    // Nor has a game that is over anything but its end.
+    let over = Entry::Over { ending: Ending::Left };
+    let longer = [&journal[..1], core::slice::from_ref(&over), &journal[1..2]].concat();
+    assert!(refused(longer).contains("entry 3"));
+    assert!(refused([&journal[..1], &[over.clone(), over]].concat()).contains("entry 3"));
+    let blank = lines(&journal[..2]) + "\n";
+    assert!(entries(&blank).expect_err("an empty line").to_string().contains("entry 3"));
     // Bytes that are no text are not read as if they were others, and unknown settings are not left out.
     let mut bytes = lines(&journal[..2]).into_bytes();
     let first = bytes.iter().position(|&byte| byte == b'\n').expect("a line");

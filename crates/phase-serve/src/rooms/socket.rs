@@ -60,12 +60,16 @@ enum Introduction {
 pub(super) async fn play(rooms: Arc<Rooms>, mut socket: WebSocket, stranger: Guest) {
     let mut stopping = rooms.stopping();
     let introduced = async {
-        match socket.recv().await {
-            Some(Ok(Message::Text(text))) => {
-                let Introduction::Join { token } = parse_as(&text).ok()?;
-                Some(token)
+        loop {
+            match socket.recv().await? {
+                Ok(Message::Text(text)) => {
+                    let Introduction::Join { token } = parse_as(&text).ok()?;
+                    return Some(token);
+                }
+                // A library may ping at once; the answer is given elsewhere.
+                Ok(Message::Ping(_) | Message::Pong(_)) => {}
+                Ok(Message::Binary(_) | Message::Close(_)) | Err(_) => return None,
             }
-            _ => None,
         }
     };
     let token = tokio::select! {

@@ -72,6 +72,17 @@ fn pings_without_end_close_the_connection() {
     player.until(|it| it["type"] == "welcome");
 }
 
+/// Who pings before it says who it is may play all the same.
+#[test]
+fn a_ping_may_come_first() {
+    let server = Running::start(settings());
+    let tokens = server.open("human");
+    let mut player = Player::open(&server);
+    player.send_all([Message::Ping(vec![1].into())]);
+    player.send(&json!({ "type": "join", "token": tokens[0] }));
+    player.until(|it| it["type"] == "welcome");
+}
+
 /// A client that takes its own place again and again is asked to wait, not told that there is no game.
 #[test]
 fn a_player_that_comes_too_often_is_told_to_come_again() {

@@ -39,6 +39,7 @@ impl Answers {
         let transaction = begun.map_err(|error| failed(error.into()))?;
         schema::identify(&transaction, &config.name, config.form.name()).map_err(failed)?;
         schema::check(&transaction).map_err(failed)?;
+        check_length(&transaction, path).map_err(failed)?;
         let raters = Writing { transaction, path }.raters()?;
         fit::check(config, forms, &raters).map_err(|misfit| failed(misfit.into()))?;
         Ok(Self { raters, missing_log })
@@ -56,6 +57,7 @@ pub fn backup(from: &Path, to: &Path) -> Result<(), StoreError> {
         return Err(failed(StoreProblem::Foreign));
     }
     schema::check(&connection).map_err(failed)?;
+    check_length(&connection, from).map_err(failed)?;
     // An address has paths that are not text, too.
     let copied = connection.execute("VACUUM INTO ?1", [address(to)]);
     copied.map(|_| ()).map_err(|error| StoreError::of(to, error))
@@ -97,6 +99,18 @@ fn attempt(opened: rusqlite::Result<Connection>) -> rusqlite::Result<Connection>
     connection.busy_timeout(PATIENCE)?;
     connection.query_row("SELECT count(*) FROM sqlite_schema", [], |_| Ok(()))?;
     Ok(connection)
+}
+
+/// Checks that nothing is missing at the end of a file, which the database itself fills with zeros. A log may
+/// have its last pages.
+fn check_length(connection: &Connection, path: &Path) -> Result<(), StoreProblem> {
+    if !is_nothing(&beside(path, "-wal")) {
+        return Ok(());
+    }
+    let number = |pragma| connection.pragma_query_value(None, pragma, |row| row.get::<_, i64>(0));
+    let length = number("page_count")? * number("page_size")?;
+    let found = path.metadata().map_or(0, |file| file.len());
+    if i64::try_from(found).is_ok_and(|found| found >= length) { Ok(()) } else { Err(StoreProblem::Torn) }
 }
 
 /// The address of a file (<https://www.sqlite.org/uri.html>).

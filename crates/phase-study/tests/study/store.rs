@@ -208,6 +208,21 @@ fn answers_fit_the_configuration() {
     assert!(matches!(read.problem, StoreProblem::Torn), "{read}");
 }
 
+/// A copy that lacks its end is not read as if zeros stood there.
+#[test]
+fn a_file_without_its_last_byte_is_refused() {
+    let config = read(&document(Form::Relation, 3, 2, 3));
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("answers.sqlite");
+    drop(answered(folder.path()));
+    let whole = fs::read(&path).expect("bytes");
+    fs::write(&path, &whole[..whole.len() - 1]).expect("written");
+    let read = Answers::read(&path, &config, &forms()).expect_err("refused");
+    assert!(matches!(read.problem, StoreProblem::Torn), "{read}");
+    let saved = backup(&path, &folder.path().join("copy.sqlite")).expect_err("refused");
+    assert!(matches!(saved.problem, StoreProblem::Torn), "{saved}");
+}
+
 /// A study in which somebody has answered twice, and is still open.
 fn answered(folder: &std::path::Path) -> Study {
     let mut study = open(folder, &document(Form::Relation, 3, 2, 3));
