@@ -89,13 +89,24 @@ pub(crate) fn summary_of(candidate: &Candidate) -> SubgoalValue {
 }
 
 /// Entities on whose position all particles agree, to within `agreement` (u). An agent need not verify the
-/// position of an object it has just put down.
-pub(crate) fn localised(physics: &PhysicsConfig, particles: &[State], agreement: f32) -> BodySet {
+/// position of an object it has just put down. It has to, if the object is out of sight and in the other's
+/// hands in any particle: the other may carry it anywhere.
+pub(crate) fn localised(
+    physics: &PhysicsConfig,
+    particles: &[State],
+    agent: AgentId,
+    agreement: f32,
+) -> BodySet {
     let mut known = BodySet::EMPTY;
     let Some(first) = particles.first() else { return known };
     for entity in physics.entities() {
         let place = first.position(entity);
-        if particles.iter().all(|particle| particle.position(entity).distance(place) <= agreement) {
+        let lies_there = |particle: &State| {
+            let is_carried =
+                matches!(entity, Entity::Object(object) if particle.holds(agent.other(), object));
+            !is_carried && particle.position(entity).distance(place) <= agreement
+        };
+        if particles.iter().all(lies_there) {
             known.insert(entity);
         }
     }

@@ -166,8 +166,8 @@ impl<D: Dynamics> Mind<D> {
     /// The subgoal to pursue and what is to be searched for it.
     fn question(&mut self, belief_view: BeliefView<'_>) -> Matter {
         let particles = belief_view.particles;
-        let known =
-            belief_view.observed.union(localised(&self.physics, particles, self.parameters.agreement));
+        let localised = localised(&self.physics, particles, self.agent, self.parameters.agreement);
+        let known = belief_view.observed.union(localised);
         let (plans, plan_of) = self.plans(belief_view, known);
         let by_particle: Vec<&Plan> = plan_of.iter().map(|&plan| &plans[plan]).collect();
         let candidates = value::candidates(&by_particle, self.parameters.lambda);

@@ -6,12 +6,12 @@ use phase_agent::{
     rollout_policy,
     search_model::{SearchModel, SearchState},
 };
-use phase_belief::Belief;
+use phase_belief::{Belief, Contest};
 use phase_forward::Forward;
 use phase_model::{
-    Action, AgentId, AgentSpec, Attitude, Body, Dynamics, Entity, EventKind, Goal, Grip, LandmarkId, Layout,
-    Literal, ObjectId, ObjectSpec, PhysicsConfig, Predicate, PredicateTarget, Scene, Side, Sign, Size, State,
-    Strength, Subgoal, Vec2, arena,
+    Action, AgentId, AgentSpec, Attitude, Body, BodySet, Dynamics, Entity, EventKind, Goal, Grip, LandmarkId,
+    Layout, Literal, ObjectId, ObjectSpec, PhysicsConfig, Predicate, PredicateTarget, Scene, Side, Sign,
+    Size, State, Strength, Subgoal, Vec2, arena,
     random::{Purpose, stream},
 };
 use phase_navigation::Navigator;
@@ -204,4 +204,36 @@ fn an_object_within_reach_is_taken() {
             "{seed}"
         );
     }
+}
+
+#[test]
+fn an_object_in_the_hands_of_another_out_of_sight_is_looked_after() {
+    let mut scene = scene(Vec2::new(8.5, 19.5), 0.0);
+    let object = ObjectId::ZERO;
+    let landmark = LandmarkId::BOTTOM_RIGHT;
+    scene.agents[0].goal = Goal::ObjectOnLandmark { object, landmark, sign: Sign::Positive };
+    scene.objects[0].start.position = Vec2::new(23.5, 4.5);
+    scene.agents[1].start.position = Vec2::new(23.5, 7.0);
+    let lying = scene.initial_state();
+    let mut carried = lying;
+    carried.grips[1] = Some(Grip { object, side: Side::Head, relative_angle: 0.0 });
+    let physics = scene.physics();
+    let mut observed = BodySet::EMPTY;
+    observed.insert(Entity::Agent(AgentId::ZERO));
+    let subgoal = |state: State| {
+        let parameters = PhaseParameters { simulations: 20, ..PhaseParameters::default() };
+        let mut mind =
+            Mind::new(&scene, AgentId::ZERO, Forward::new(&physics), parameters).expect("good parameters");
+        let view = BeliefView {
+            particles: &[state; 4],
+            observed,
+            last_action: None,
+            suppositions: &[],
+            contest: Contest::default(),
+        };
+        mind.decide(view, &mut stream(1, Purpose::Search, 0)).expect("a decision").1.subgoal
+    };
+    // All particles agree on where the object is, but only one that lies stays there.
+    assert_eq!(subgoal(lying), Subgoal::Stay);
+    assert_ne!(subgoal(carried), Subgoal::Stay);
 }
