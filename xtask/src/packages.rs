@@ -27,6 +27,7 @@ pub const PACKAGES: [(&str, &[(&str, &str)]); 4] = [
             ("fit-intents", "Fit what SIMPLE takes neutral agents to know of the other's goal"),
             ("fit-minds", "Fit the parameters of the minds to recordings or events whose labels are known"),
             ("fit-reports", "Fit how people report what they saw to raters of recordings"),
+            ("fit-selection", "Measure in recordings what selection limits and how two part who get nowhere"),
         ],
     ),
     (

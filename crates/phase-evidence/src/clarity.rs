@@ -97,25 +97,71 @@ pub fn steps_trying(track: &Track, agent: AgentId, goal: Goal) -> usize {
 /// The steps of each knot, in order of time: the first of them, and the one after the last.
 #[must_use]
 pub fn knots(scene: &Scene, track: &Track) -> Vec<Range<usize>> {
-    let mut knots = Vec::new();
-    for object in track.physics.objects() {
-        let place = |t: usize| track.states[t].position(Entity::Object(object));
-        let mut from = None;
-        for t in 0..=track.states.len() {
-            let is_jammed = t < track.states.len()
-                && AgentId::ALL.into_iter().all(|agent| is_at(track, t, agent, object))
-                && !is_reached(scene, track, t);
-            let goes_on =
-                from.is_some_and(|from: usize| is_jammed && place(from).distance(place(t)) < PROGRESS);
-            if goes_on {
-                continue;
-            }
-            knots.extend(from.map(|from| from..t).filter(|knot| knot.len() >= MIN_KNOT));
-            from = is_jammed.then_some(t);
-        }
-    }
+    let of = |object: ObjectId| knots_at(scene, track, object);
+    let mut knots: Vec<Range<usize>> = track.physics.objects().flat_map(of).collect();
     knots.sort_by_key(|knot| knot.start);
     knots
+}
+
+/// The steps of each knot at one object, in order of time.
+fn knots_at(scene: &Scene, track: &Track, object: ObjectId) -> Vec<Range<usize>> {
+    let mut knots = Vec::new();
+    let place = |t: usize| track.states[t].position(Entity::Object(object));
+    let mut from = None;
+    for t in 0..=track.states.len() {
+        let is_jammed = t < track.states.len()
+            && AgentId::ALL.into_iter().all(|agent| is_at(track, t, agent, object))
+            && !is_reached(scene, track, t);
+        let goes_on = from.is_some_and(|from: usize| is_jammed && place(from).distance(place(t)) < PROGRESS);
+        if goes_on {
+            continue;
+        }
+        knots.extend(from.map(|from| from..t).filter(|knot| knot.len() >= MIN_KNOT));
+        from = is_jammed.then_some(t);
+    }
+    knots
+}
+
+/// A knot and what comes of it.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Standstill {
+    /// Its duration.
+    pub duration: Duration,
+    /// For how long an agent keeps off the object, if, after the knot and before the next one, it leaves it to
+    /// the other.
+    pub kept_off: Option<Duration>,
+}
+
+/// The time that something lasts.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Duration {
+    /// Number of steps.
+    pub steps: usize,
+    /// Whether the event ends before it does.
+    pub is_cut: bool,
+}
+
+/// The knots of an event, and what comes of them.
+#[must_use]
+pub fn standstills(scene: &Scene, track: &Track) -> Vec<Standstill> {
+    let mut standstills = Vec::new();
+    let end = track.states.len();
+    for object in track.physics.objects() {
+        let at = |t: usize, agent: AgentId| is_at(track, t, agent, object);
+        let knots = knots_at(scene, track, object);
+        for (k, knot) in knots.iter().enumerate() {
+            let next = knots.get(k + 1).map_or(end, |next| next.start);
+            let left = (knot.end..next).find(|&t| at(t, AgentId::ZERO) != at(t, AgentId::ONE));
+            let kept_off = left.map(|left| {
+                let off = if at(left, AgentId::ZERO) { AgentId::ONE } else { AgentId::ZERO };
+                let back = (left..end).find(|&t| at(t, off));
+                Duration { steps: back.unwrap_or(end) - left, is_cut: back.is_none() }
+            });
+            let duration = Duration { steps: knot.len(), is_cut: knot.end >= end };
+            standstills.push(Standstill { duration, kept_off });
+        }
+    }
+    standstills
 }
 
 /// Whether the positive goal of an agent holds at a step.

@@ -14,6 +14,7 @@ use crate::{
     fit_intents,
     fit_minds::{self, options::FitMinds},
     fit_reports::{self, options::FitReports},
+    fit_selection::{self, FitSelection},
 };
 use clap::Subcommand;
 use phase_cli::{
@@ -49,6 +50,8 @@ pub enum Command {
     FitForecast(FitEvents),
     /// Fit how people report what they saw to raters of recordings
     FitReports(FitReports),
+    /// Measure in recordings what selection limits and how two part who get nowhere
+    FitSelection(FitSelection),
 }
 
 impl Interface for Command {
@@ -70,6 +73,7 @@ impl Interface for Command {
             Self::FitIntents(arguments) => fit_intents::run(arguments, context),
             Self::FitForecast(arguments) => fit_forecast::run(arguments, context),
             Self::FitReports(arguments) => fit_reports::run(arguments),
+            Self::FitSelection(arguments) => fit_selection::run(arguments, context),
         }
     }
 }

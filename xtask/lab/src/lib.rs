@@ -10,7 +10,8 @@
 //! - `fit-inference` fits how SIMPLE weighs its evidence,
 //! - `fit-intents` fits what SIMPLE takes neutral agents to know,
 //! - `fit-minds` fits the parameters of minds to recorded agents,
-//! - `fit-reports` fits how people report what they saw.
+//! - `fit-reports` fits how people report what they saw,
+//! - `fit-selection` measures in recordings what selection limits.
 //!
 //! Key design decision: a number that was fitted can be fitted again, by a command that anyone can run. The
 //! price is a package that users of PHASE never need, so `cargo xtask` builds it only when one of these
@@ -34,5 +35,6 @@ pub mod fit_inference;
 pub mod fit_intents;
 pub mod fit_minds;
 pub mod fit_reports;
+pub mod fit_selection;
 mod folds;
 mod recognition;

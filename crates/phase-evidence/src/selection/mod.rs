@@ -8,12 +8,15 @@
 mod common;
 mod drawn;
 mod kinds;
+mod limits;
 
 use crate::{Discovery, Effect, GoalOutcome, Manner, Track, contact};
 use core::ops::RangeInclusive;
 use phase_event::Event;
 use phase_model::{AgentId, Attitude, Entity, Goal, Scene, Sign};
 use serde::{Deserialize, Serialize};
+
+pub use limits::{Limit, Quantity};
 
 /// Minimum duration for something to be seen (steps): three quarters of a second of video.
 pub const MIN_VISIBLE_STEPS: usize = 3;

@@ -6,7 +6,8 @@ use crate::{
 };
 use phase_evidence::{
     Clarity,
-    clarity::{knots, steps_trying},
+    clarity::{Duration, Standstill, knots, standstills, steps_trying},
+    selection::{Limit, Quantity},
 };
 use phase_model::{AgentId, Attitude, EventKind, Goal};
 
@@ -80,4 +81,39 @@ fn the_rest_at_the_end_is_as_long_as_everything_stays_there() {
     let rest = core::iter::repeat_n(apart(12.0), 7);
     assert_eq!(clarity(walk.chain(rest).collect()).rest_at_end, 7);
     assert_eq!(clarity(vec![apart(14.0); 5]).rest_at_end, 4);
+}
+
+#[test]
+fn after_a_knot_the_one_that_leaves_keeps_off_until_it_is_back() {
+    let scene = scene(EventKind::Competing, [THING, place(1, 1)], Attitude::Neutral);
+    let both = |steps: usize| vec![pulling(14.0, 0.0); steps];
+    // A knot, four steps in which agent 1 is away, a touch too short for a knot, and again five to the end.
+    let moves = [both(6), vec![apart(14.0); 4], both(2), vec![apart(14.0); 5]].concat();
+    let of = |steps, is_cut| Duration { steps, is_cut };
+    let expected = Standstill { duration: of(6, false), kept_off: Some(of(4, false)) };
+    assert_eq!(standstills(&scene, &track(moves)), [expected]);
+    let away = track([both(6), vec![apart(14.0); 4]].concat());
+    assert_eq!(standstills(&scene, &away)[0].kept_off, Some(of(4, true)));
+    let to_the_end = Standstill { duration: of(6, true), kept_off: None };
+    assert_eq!(standstills(&scene, &track(both(6))), [to_the_end]);
+}
+
+#[test]
+fn quantities_that_selection_limits_are_measured_on_motion_alone() {
+    let competing = scene(EventKind::Competing, [THING, place(1, 1)], Attitude::Neutral);
+    let moves =
+        [(0..4).map(|t| apart(14.0 - 0.5 * t as f32)).collect(), vec![pulling(12.5, 0.0); 8]].concat();
+    let track = track(moves);
+    let of = |quantity: Quantity| quantity.of(&competing, &track);
+    // Steps 5 to 11 change nothing.
+    assert_eq!(of(Quantity::Standstill), Some(7.0));
+    assert_eq!(of(Quantity::Still), Some(7.0 / 11.0));
+    assert_eq!(of(Quantity::Knotted), Some(8.0 / 11.0));
+    assert_eq!(of(Quantity::KnotAtEnd), Some(8.0));
+    // Agent 1 wants to be somewhere itself, and nobody is helped or hindered.
+    assert_eq!((of(Quantity::Favour), of(Quantity::Trying)), (None, None));
+    let helping = scene(EventKind::Helping, [THING, THING], Attitude::Help);
+    assert!(Quantity::Trying.of(&helping, &track).is_some_and(|steps| steps > 0.0));
+    assert!(Limit::AtMost(0.5).keeps(0.5) && !Limit::AtMost(0.5).keeps(0.6));
+    assert!(Limit::AtLeast(0.5).keeps(0.5) && !Limit::AtLeast(0.5).keeps(0.4));
 }
