@@ -127,8 +127,8 @@ fn knots_at(scene: &Scene, track: &Track, object: ObjectId) -> Vec<Range<usize>>
 pub struct Standstill {
     /// Its duration.
     pub duration: Duration,
-    /// For how long an agent keeps off the object, if, after the knot and before the next one, it leaves it to
-    /// the other.
+    /// For how long an agent keeps off the object, if it leaves it to the other after the knot and before the
+    /// next one.
     pub kept_off: Option<Duration>,
 }
 

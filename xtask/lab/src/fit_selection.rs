@@ -1,8 +1,8 @@
 //! `fit-selection`: measures in recordings what selection limits, and how two part who get nowhere.
 //!
 //! A limit of selection is fitted if it keeps nine of ten recordings. The numbers of contests
-//! ([`PhaseParameters::patience`](phase_minds::PhaseParameters::patience), `respite`) are medians of durations, by
-//! the estimate of Kaplan and Meier, since events end before some durations do.
+//! ([`PhaseParameters::patience`] and [`respite`](PhaseParameters::respite)) are medians of durations, by the
+//! estimate of Kaplan and Meier, since events end before some durations do.
 
 use crate::{check_minds, error::LabError};
 use clap::Args;
