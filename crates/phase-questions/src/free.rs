@@ -18,7 +18,7 @@ pub struct Accepted {
 }
 
 /// All values of a question's type and the words that name them; empty for types that are asked with options
-/// only (`kind`, `role`, `without`).
+/// only (`kind`, `without`).
 #[must_use]
 pub fn accepted(query: &Query, names: &Names) -> Vec<Accepted> {
     let owned = |words: &[&str]| words.iter().map(|&word| word.to_owned()).collect::<Vec<_>>();
@@ -34,6 +34,7 @@ pub fn accepted(query: &Query, names: &Names) -> Vec<Accepted> {
             Accepted { value: agent.to_string(), anywhere: vec![name], alone: vec![colour] }
         })
     };
+    let neither = || plain("neither", &["neither", "none", "nobody", "no one"]);
     let corners = |landmark: LandmarkId| {
         let corner = corner(landmark);
         vec![corner.to_owned(), corner.replace("top", "upper").replace("bottom", "lower")]
@@ -69,16 +70,13 @@ pub fn accepted(query: &Query, names: &Names) -> Vec<Accepted> {
             LandmarkId::ALL.map(of).to_vec()
         }
         Query::Stronger | Query::FirstTouch { .. } => agents().collect(),
-        Query::Carrier { .. } => {
-            let others =
-                [plain("both", &["both"]), plain("neither", &["neither", "none", "nobody", "no one"])];
-            agents().chain(others).collect()
-        }
+        Query::Carrier { .. } => agents().chain([plain("both", &["both"]), neither()]).collect(),
+        Query::Role => agents().chain([neither()]).collect(),
         Query::Seen { .. } | Query::IsRight { .. } => vec![plain("yes", &["yes"]), plain("no", &["no"])],
         Query::PairHelp | Query::PairHinder | Query::PairTogether => {
             vec![plain("0", &["left"]), plain("1", &["right"])]
         }
-        Query::Kind | Query::Role | Query::Without { .. } => Vec::new(),
+        Query::Kind | Query::Without { .. } => Vec::new(),
     }
 }
 

@@ -39,8 +39,7 @@ pub enum Query {
     Relation,
     /// The kind of the event, by its name.
     Kind,
-    /// `helps-0`, `helps-1`, `hinders-0`, `hinders-1`: what the agent of this number does to the other;
-    /// `neither` if each minds its own goal.
+    /// The agent that acts to help or hinder the other; `neither` if each minds its own goal.
     Role,
     /// The landmark on which an agent wants an entity.
     Goal {

@@ -42,9 +42,9 @@ pub(crate) fn question(query: &Query, phrasing: usize, names: &Names) -> String 
             "What is going on between the two agents?".into(),
         ]),
         Query::Role => pick([
-            "Which of these is true?".into(),
+            "Which agent, if any, acts to help or hinder the other?".into(),
             "Does one of the agents help or hinder the other, and which?".into(),
-            "Does an agent act for or against the other? If so, which agent, and how?".into(),
+            "Does an agent act for or against the other? If so, which agent?".into(),
         ]),
         Query::Goal { agent: whose, subject } if subject == Entity::Agent(whose) => {
             let who = agent(whose);
@@ -253,12 +253,6 @@ pub(crate) fn option(query: &Query, value: &str, names: &Names) -> String {
         }
         .into(),
         Query::Kind => EventKind::named(value).map_or_else(String::new, |kind| words::kind(kind).to_owned()),
-        Query::Role if value == "neither" => "neither agent helps or hinders the other".into(),
-        Query::Role => {
-            let (verb, agent) = value.rsplit_once('-').unwrap_or_default();
-            let agent = if agent == "1" { AgentId::ONE } else { AgentId::ZERO };
-            format!("{} {verb} {}", agent_name(agent), agent_name(agent.other()))
-        }
         Query::Goal { .. } => {
             landmark.map_or_else(String::new, |it| format!("the {}", names.landmark_and_place(it)))
         }
@@ -269,15 +263,17 @@ pub(crate) fn option(query: &Query, value: &str, names: &Names) -> String {
         | Query::Expects { .. }
         | Query::LooksNext { .. }
         | Query::Ahead { .. } => landmark.map_or_else(String::new, |it| format!("the {} room", corner(it))),
-        Query::Stronger | Query::FirstTouch { .. } | Query::Carrier { .. } => match (value, agent) {
-            ("both", _) => "both agents, at once or one after the other".into(),
-            ("neither", _) => "neither of them".into(),
-            (_, Some(agent)) if matches!(query, Query::Carrier { .. }) => {
-                format!("{} alone", agent_name(agent))
+        Query::Role | Query::Stronger | Query::FirstTouch { .. } | Query::Carrier { .. } => {
+            match (value, agent) {
+                ("both", _) => "both agents, at once or one after the other".into(),
+                ("neither", _) => "neither of them".into(),
+                (_, Some(agent)) if matches!(query, Query::Carrier { .. }) => {
+                    format!("{} alone", agent_name(agent))
+                }
+                (_, Some(agent)) => agent_name(agent),
+                _ => String::new(),
             }
-            (_, Some(agent)) => agent_name(agent),
-            _ => String::new(),
-        },
+        }
         Query::Seen { .. } | Query::IsRight { .. } => value.to_owned(),
         Query::Without { idle, .. } => {
             let whom = agent_name(idle.other());

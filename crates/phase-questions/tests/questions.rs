@@ -136,7 +136,7 @@ fn judgements_choose_options() {
     let one = judged([0.2, 0.5], 0.8);
     let relation = values(&["neutral", "friendly", "adversarial"]);
     assert_eq!(Query::Relation.choice(core::slice::from_ref(&one), &relation), Some(1));
-    let roles = values(&["helps-0", "hinders-0", "helps-1", "hinders-1"]);
+    let roles = values(&["neither", "0", "1"]);
     assert_eq!(Query::Role.choice(core::slice::from_ref(&one), &roles), Some(2));
     let pair = [judged([0.1, 0.1], 0.5), judged([0.1, 0.6], 0.5)];
     assert_eq!(Query::PairHelp.choice(&pair, &values(&["0", "1"])), Some(1));

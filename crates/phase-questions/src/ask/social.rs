@@ -1,7 +1,10 @@
 //! Questions about relation, kind, roles, goals and strengths.
 
-use super::{Asker, shows_relation, texts};
-use crate::query::{Query, agent_value};
+use super::{Asker, shown::shows_role, shows_relation, texts};
+use crate::{
+    Facts,
+    query::{Query, agent_value},
+};
 use phase_evidence::GoalOutcome;
 use phase_model::{AgentId, Attitude, Entity, EventKind, Goal, LandmarkId, Sign, arena::LANDMARKS};
 use serde_json::{Value, json};
@@ -22,18 +25,6 @@ fn distinct_kinds(kind: EventKind, id: &str) -> Vec<String> {
 }
 
 impl Asker<'_> {
-    /// Whether a viewer can tell the helper from the helped: both pursue one goal, so the helped one has to
-    /// touch the object first.
-    fn shows_who_is_helped(&self, helper: AgentId) -> bool {
-        match self.facts.scene.agents[helper].goal.subject() {
-            Entity::Object(object) => {
-                let first = Query::FirstTouch { object }.seen(&self.facts.track);
-                first == Some(agent_value(helper.other()))
-            }
-            Entity::Agent(_) => false,
-        }
-    }
-
     /// Relation, kind, roles, goals and strengths: the labels of the scene.
     pub(super) fn social(&mut self) {
         let scene = &self.facts.scene;
@@ -83,30 +74,22 @@ impl Asker<'_> {
         let kinds = distinct_kinds(scene.kind, &self.facts.id);
         let stratum = format!("{stratum}, {}", kinds.join(", "));
         self.ask(Query::Kind, kinds, scene.kind.name().to_owned(), stratum, labels.clone());
-        let roles = texts(["helps-0", "helps-1", "hinders-0", "hinders-1", "neither"]);
-        let attitudes = scene.attitudes();
-        // Agents with one goal or with goals that conflict help or hinder each other in a way.
-        if scene.kind == EventKind::Independent {
-            let stratum = self.nearer_to_first_object();
-            self.ask(Query::Role, roles.clone(), "neither".to_owned(), stratum, labels.clone());
-        }
-        for agent in AgentId::ALL {
-            let verb = match attitudes[agent] {
-                Attitude::Help => "helps",
-                Attitude::Hinder => "hinders",
-                Attitude::Neutral => continue,
-            };
-            if attitudes[agent] == Attitude::Help && !self.shows_who_is_helped(agent) {
-                continue;
-            }
-            self.ask(
-                Query::Role,
-                roles.clone(),
-                format!("{verb}-{agent}"),
-                self.nearer_to_first_object(),
-                labels.clone(),
-            );
-        }
+        self.role(labels);
+    }
+
+    /// The agent that acts upon the other. Whether that is help or hindrance is not asked with it: who takes
+    /// over what the other has begun may do either, and it depends on what the other wants.
+    fn role(&mut self, labels: &Value) {
+        let Facts { scene, track, .. } = self.facts;
+        let social = AgentId::ALL.into_iter().find(|&it| scene.agents[it].attitude != Attitude::Neutral);
+        let value = match social {
+            Some(agent) if shows_role(scene, track, agent) => agent_value(agent),
+            // Agents with one goal or with goals that conflict help or hinder each other in a way.
+            None if scene.kind == EventKind::Independent => "neither".to_owned(),
+            _ => return,
+        };
+        let values = texts(["0", "1", "neither"]);
+        self.ask(Query::Role, values, value, self.nearer_to_first_object(), labels.clone());
     }
 
     /// The landmark of a goal, among those at which its subject is not already.

@@ -69,14 +69,18 @@ fn asked(facts: &Facts, name: &str) -> Vec<Draft> {
     about_event(facts).into_iter().filter(|draft| draft.query.type_name() == name).collect()
 }
 
-/// Helper and helped want the same; a viewer tells them apart by who was at the object first.
+/// A viewer tells who acts upon whom by who was at the object first. Nobody does if neither is social.
 #[test]
-fn help_is_asked_about_where_the_helped_one_begins() {
-    let roles = |first| -> Vec<String> {
-        asked(&shared("helping", [1, 0], first), "role").into_iter().map(|draft| draft.value).collect()
+fn roles_are_asked_about_where_the_other_begins() {
+    let roles = |facts: &Facts| -> Vec<String> {
+        asked(facts, "role").into_iter().map(|draft| draft.value).collect()
     };
-    assert_eq!(roles(AgentId::ONE), ["helps-0"]);
-    assert!(roles(AgentId::ZERO).is_empty());
+    for (kind, alphas) in [("helping", [1, 0]), ("hindering", [-1, 0])] {
+        assert_eq!(roles(&shared(kind, alphas, AgentId::ONE)), ["0"], "{kind}");
+        assert!(roles(&shared(kind, alphas, AgentId::ZERO)).is_empty(), "{kind}");
+    }
+    assert_eq!(roles(&alone("independent", [0, 0], AgentId::ONE)), ["neither"]);
+    assert!(roles(&shared("collaborating", [0, 0], AgentId::ONE)).is_empty());
 }
 
 /// A helper that does everything alone, or a hinderer whom the other never meets, seems to mind its own

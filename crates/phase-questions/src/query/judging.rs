@@ -18,13 +18,9 @@ impl Query {
             Self::Kind => EventKind::named(value).map_or(0.0, |kind| kind_probability(judgement, kind)),
             Self::Role if value == "neither" => judgement.relation.neutral,
             Self::Role => {
-                let (attitude, agent) = match value.rsplit_once('-') {
-                    Some(("helps", agent)) => (Attitude::Help, number(agent)),
-                    Some((_, agent)) => (Attitude::Hinder, number(agent)),
-                    None => return 0.0,
-                };
-                let agent = agent.and_then(|agent| AgentId::ALL.get(agent).copied());
-                agent.map_or(0.0, |agent| roles.of(agent, attitude).max(0.0))
+                let agent = number(value).and_then(|agent| AgentId::ALL.get(agent).copied());
+                let role = |attitude| agent.map_or(0.0, |agent| roles.of(agent, attitude).max(0.0));
+                role(Attitude::Help) + role(Attitude::Hinder)
             }
             Self::Goal { agent, subject } => {
                 let wanted = number(value).and_then(|number| LandmarkId::ALL.get(number).copied());
