@@ -7,7 +7,7 @@
 use crate::{error::XtaskError, results};
 use clap::Args;
 use phase_cli::{console::print_message, context::Context, error::CliError, output::print_result};
-use phase_eval::benchmark::{Benchmark, GENERATED, PAIRS};
+use phase_eval::benchmark::{Benchmark, GENERATED, PAIRS, RECORDED};
 use phase_files::atomic;
 use phase_report::evaluation::{self, LEADERBOARD_FORMAT, Score, Scores, Source};
 pub use phase_runs::leaderboard::PAGE;
@@ -45,10 +45,12 @@ pub fn run(options: &Leaderboard, context: &Context) -> Result<(), XtaskError> {
     let known = scores(root)?;
     let mut all = Scores { format: LEADERBOARD_FORMAT.into(), scores: Vec::new() };
     for predictions in predictions(root).map_err(CliError::Run)? {
-        let events = match predictions.set {
+        let events = match predictions.set.as_str() {
             GENERATED => &options.data,
             PAIRS => &options.pairs,
-            _ => &options.real,
+            RECORDED => &options.real,
+            // Sealed events are scored by `submit`, with the proof of the seal.
+            _ => &None,
         };
         let stored = known.scores.iter().find(|score| predictions.is_scored_by(score));
         let score = match (events, stored) {

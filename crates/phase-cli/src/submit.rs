@@ -4,7 +4,7 @@
 use crate::{context::Context, error::CliError, interrupt, output::Output};
 use clap::Args;
 use phase_report::evaluation::Measures;
-use phase_runs::leaderboard::{Submission, Submitted};
+use phase_runs::leaderboard::{Sealed, Submission, Submitted};
 use std::path::PathBuf;
 
 /// Options of `submit`.
@@ -16,6 +16,12 @@ pub struct Submit {
     /// The events: the folder of PHASE-500 or of phase-pairs, or the file of the recordings
     #[arg(long, value_name = "DIR|FILE")]
     pub events: PathBuf,
+    /// Folder that `seal` published: the predictions are about its events, --events is what was sealed
+    #[arg(long, value_name = "DIR")]
+    pub sealed: Option<PathBuf>,
+    /// Folder of the questions, if they were sealed, too
+    #[arg(long, value_name = "DIR", requires = "sealed")]
+    pub questions: Option<PathBuf>,
     /// Name of the method [default: that of the file]
     #[arg(long, value_name = "NAME")]
     pub method: Option<String>,
@@ -39,10 +45,12 @@ pub struct Submit {
 /// Any [`CliError`].
 pub fn run(arguments: &Submit, context: &Context) -> Result<(), CliError> {
     interrupt::listen();
-    let Submit { predictions, events, method, by, source, out, output } = arguments;
+    let Submit { predictions, events, sealed, questions, method, by, source, out, output } = arguments;
+    let sealed = sealed.clone().map(|published| Sealed { published, questions: questions.clone() });
     let submission = Submission {
         predictions: predictions.clone(),
         events: events.clone(),
+        sealed,
         method: method.clone(),
         by: by.clone(),
         source: source.clone(),

@@ -52,7 +52,7 @@ pub(crate) fn submit(
     source: String,
     out: PathBuf,
 ) -> PyResult<String> {
-    let submission = Submission { predictions, events, method: Some(method), by, source, out };
+    let submission = Submission { predictions, events, sealed: None, method: Some(method), by, source, out };
     let pool = rayon::ThreadPoolBuilder::new().build().map_err(raise)?;
     let submitted = py.detach(|| pool.install(|| submission.submit(&Silent))).map_err(raise)?;
     serde_json::to_string(&submitted).map_err(raise)

@@ -2,12 +2,18 @@
 //!
 //! They lie in a checkout, or in a folder of the same structure, from which a submission is copied into one.
 
+mod files;
+mod sealed;
+
+pub use sealed::Sealed;
+
 use crate::{
     error::RunError,
     eval::{Answers, Evaluation},
     listener::{Listener, Silent},
     source::EventInput,
 };
+use files::{bundled, there_or_bundled, unfit, write};
 use phase_dataset::{
     manifest::{MANIFEST_FILE, Manifest},
     splits::Split,
@@ -17,11 +23,9 @@ use phase_eval::{
     benchmark::{Benchmark, EventSet, GENERATED, PAIRS, RECORDED},
 };
 use phase_event::check_id;
-use phase_files::{
-    FileError, Problem, WriteError, atomic, checksum::sha256_hex, incidental::is_incidental, json,
-};
-use phase_report::evaluation::{self, LEADERBOARD_FORMAT, Measures, Score, Scores, Source};
-use serde::de::DeserializeOwned;
+use phase_files::{WriteError, checksum::sha256_hex, incidental::is_incidental, json};
+use phase_report::evaluation::{self, LEADERBOARD_FORMAT, Measures, Score, Scores, SealedSet, Source};
+use sealed::Opened;
 use serde_json::Value;
 use std::{
     collections::BTreeMap,
@@ -77,7 +81,7 @@ const SEED: u64 = 1;
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Predictions {
     /// The label of the set.
-    pub set: &'static str,
+    pub set: String,
     /// One of [`TASKS`].
     pub task: &'static str,
     /// The name of the method.
@@ -92,8 +96,8 @@ impl Predictions {
     /// Whether a score is that of this file.
     #[must_use]
     pub fn is_scored_by(&self, score: &Score) -> bool {
-        (self.set, self.task, &self.method, &self.sha256)
-            == (score.set.as_str(), task_of(score), &score.method, &score.predictions)
+        (&self.set, self.task, &self.method, &self.sha256)
+            == (&score.set, task_of(score), &score.method, &score.predictions)
     }
 
     /// Scores the predictions as `eval` does.
@@ -101,13 +105,21 @@ impl Predictions {
     /// # Errors
     /// If the events or the predictions cannot be used.
     pub fn score(&self, events: &Path, listener: &dyn Listener) -> Result<Score, RunError> {
+        let split = SETS.iter().find(|set| set.label == self.set).and_then(|set| set.split);
+        self.score_as(Evaluation { split, ..Evaluation::new(events) }, None, listener)
+    }
+
+    fn score_as(
+        &self,
+        evaluation: Evaluation,
+        sealed: Option<SealedSet>,
+        listener: &dyn Listener,
+    ) -> Result<Score, RunError> {
         let unwritable = |source| {
             RunError::Output(WriteError { path: std::env::temp_dir(), action: "create a folder in", source })
         };
         let folder = tempfile::tempdir().map_err(unwritable)?;
-        let split = SETS.iter().find(|set| set.label == self.set).and_then(|set| set.split);
-        let out = Some(folder.path().join("scored"));
-        let evaluation = Evaluation { split, out, ..Evaluation::new(events) };
+        let evaluation = Evaluation { out: Some(folder.path().join("scored")), ..evaluation };
         let answers = Answers::Predictions(self.file.clone());
         let results = if self.task == TASKS[0] {
             evaluation.goals(&answers, listener)?.map(|done| done.results)
@@ -119,7 +131,8 @@ impl Predictions {
         let measures = measures(self.task, &results)
             .ok_or_else(|| unfit(&self.file, "has results without the measures of the leaderboard"))?;
         let predictions = self.sha256.clone();
-        Ok(Score { method: self.method.clone(), set: self.set.into(), predictions, events: digest, measures })
+        let (method, set) = (self.method.clone(), self.set.clone());
+        Ok(Score { method, set, predictions, events: digest, sealed, measures })
     }
 }
 
@@ -129,15 +142,19 @@ impl Predictions {
 /// If one cannot be read.
 pub fn predictions(root: &Path) -> Result<Vec<Predictions>, RunError> {
     let mut found = Vec::new();
-    let sets = SETS.iter().map(|set| set.label);
-    for (set, task) in sets.flat_map(|set| TASKS.map(|task| (set, task))) {
-        // A folder that is not there holds no predictions.
-        let entries = fs::read_dir(root.join(FOLDER).join(set).join(task)).into_iter().flatten().flatten();
+    // A folder that is not there holds no predictions.
+    let inside = |folder: &Path| fs::read_dir(folder).into_iter().flatten().flatten();
+    let folder = root.join(FOLDER);
+    let folders = inside(&folder).map(|entry| entry.file_name().to_string_lossy().into_owned());
+    let sealed = folders.filter(|name| name.starts_with(sealed::SEALED));
+    let sets = SETS.iter().map(|set| set.label.to_owned()).chain(sealed);
+    for (set, task) in sets.flat_map(|set| TASKS.map(|task| (set.clone(), task))) {
+        let entries = inside(&folder.join(&set).join(task));
         let files = entries.filter(|entry| !is_incidental(&entry.file_name())).map(|entry| entry.path());
         for file in files.filter(|file| file.extension().is_some_and(|ending| ending == "json")) {
             let sha256 = sha256_hex(&json::bytes(&file)?);
             let method = file.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-            found.push(Predictions { set, task, method, file, sha256 });
+            found.push(Predictions { set: set.clone(), task, method, file, sha256 });
         }
     }
     found.sort_by(|a, b| a.file.cmp(&b.file));
@@ -177,6 +194,8 @@ pub struct Submission {
     pub predictions: PathBuf,
     /// The events that they are about: the folder of a dataset, or the file of the recordings.
     pub events: PathBuf,
+    /// The seal, if the answers were given to the motion of a sealed dataset.
+    pub sealed: Option<Sealed>,
     /// The name of the method; without it that of the file.
     pub method: Option<String>,
     /// The authors.
@@ -212,7 +231,10 @@ impl Submission {
     /// invalid one; if a name is invalid; and if a file cannot be read or written.
     pub fn submit(&self, listener: &dyn Listener) -> Result<Submitted, RunError> {
         let benchmark: Benchmark = bundled("data/results.json", phase_data::RESULTS)?;
-        let (Set { label, preset, .. }, set) = set_of(&self.events, &benchmark)?;
+        let about = match &self.sealed {
+            Some(sealed) => About::Sealed(sealed.open(&self.events, &self.predictions, listener)?),
+            None => set_of(&self.events, &benchmark)?,
+        };
         for (name, text) in [("by", &self.by), ("source", &self.source)] {
             let plain = !text.trim().is_empty() && !text.chars().any(char::is_control);
             if !plain {
@@ -228,20 +250,38 @@ impl Submission {
         if answered.is_empty() {
             return Err(unfit(&self.predictions, "has events with neither `goals` nor `forecast`"));
         }
-        if *label == PAIRS && answered.contains(&TASKS[1]) {
-            listener.note("note: on minimal pairs goals are scored only; the forecasts are left out");
+        let goals_only = match &about {
+            About::Known(set, _) if set.label == PAIRS => Some("minimal pairs"),
+            About::Known(..) => None,
+            // All motion is published, also what would have to be forecast.
+            About::Sealed(_) => Some("sealed events"),
+        };
+        if let Some(events) = goals_only.filter(|_| answered.contains(&TASKS[1])) {
+            listener.note(&format!("note: on {events} goals are scored only; the forecasts are left out"));
         }
         let mut scores = Vec::new();
-        for task in answered.into_iter().filter(|task| *label != PAIRS || *task == TASKS[0]) {
+        for task in answered.into_iter().filter(|task| goals_only.is_none() || *task == TASKS[0]) {
             let (method, file) = (method.clone(), self.predictions.clone());
-            let predictions = Predictions { set: label, task, method, file, sha256: sha256_hex(&bytes) };
-            scores.push(predictions.score(&self.events, listener)?);
+            let predictions =
+                |set: &str| Predictions { set: set.into(), task, method, file, sha256: sha256_hex(&bytes) };
+            scores.push(match &about {
+                About::Known(set, _) => predictions(set.label).score(&self.events, listener)?,
+                About::Sealed(Opened { label, set, names }) => {
+                    let evaluation = Evaluation { names: names.clone(), ..Evaluation::new(&self.events) };
+                    predictions(label).score_as(evaluation, Some(set.clone()), listener)?
+                }
+            });
         }
-        let same_events = scores.iter().all(|score| score.events == set.sha256);
+        let same_events = match about {
+            About::Known(_, set) => scores.iter().all(|score| score.events == set.sha256),
+            // That has been proved.
+            About::Sealed(_) => true,
+        };
         // Another version may make other events of a preset; recordings are what they are.
-        if preset.is_none() && !same_events {
+        if let About::Known(Set { preset: None, .. }, EventSet { events: count, .. }) = about
+            && !same_events
+        {
             let events = self.events.display();
-            let count = set.events;
             return Err(RunError::Usage(format!(
                 "{events}: its events are not the {count} recordings of the leaderboard, as `data/import_socialgnn.py` writes them"
             )));
@@ -291,8 +331,16 @@ impl Submission {
     }
 }
 
-/// The set that some events are, also as it is in the benchmark.
-fn set_of<'a>(events: &Path, benchmark: &'a Benchmark) -> Result<(&'static Set, &'a EventSet), RunError> {
+/// The events of a submission.
+enum About<'a> {
+    /// A set that everybody has, also as it is in the benchmark.
+    Known(&'static Set, &'a EventSet),
+    /// A sealed dataset.
+    Sealed(Opened),
+}
+
+/// The set that some events are.
+fn set_of<'a>(events: &Path, benchmark: &'a Benchmark) -> Result<About<'a>, RunError> {
     let file = events.join(MANIFEST_FILE);
     let manifest = if file.is_file() { Some(Manifest::read(&file)?) } else { None };
     let preset = manifest.as_ref().map(|manifest| manifest.preset.as_str());
@@ -326,7 +374,7 @@ fn set_of<'a>(events: &Path, benchmark: &'a Benchmark) -> Result<(&'static Set, 
         Some(manifest) if manifest.seed != SEED => {
             Err(wrong(format!("was made with the seed {}", manifest.seed)))
         }
-        _ => Ok((set, in_benchmark)),
+        _ => Ok(About::Known(set, in_benchmark)),
     }
 }
 
@@ -335,29 +383,4 @@ fn tasks_of(predictions: &Value) -> Vec<&'static str> {
     let first = &predictions["events"][0];
     let answered = TASKS.into_iter().zip(ANSWERS).filter(|(_, member)| !first[member].is_null());
     answered.map(|(task, _)| task).collect()
-}
-
-fn there_or_bundled<T: DeserializeOwned>(file: &Path, text: &str) -> Result<T, RunError> {
-    if !file.exists() {
-        return bundled(&file.to_string_lossy(), text);
-    }
-    let value = json::read(file)?;
-    serde_json::from_value(value).map_err(|error| unfit(file, &error.to_string()))
-}
-
-fn bundled<T: DeserializeOwned>(name: &str, text: &str) -> Result<T, RunError> {
-    serde_json::from_str(text).map_err(|error| unfit(Path::new(name), &error.to_string()))
-}
-
-fn unfit(file: &Path, rule: &str) -> RunError {
-    let problem = Problem::Shape { what: "file of the leaderboard", rule: rule.into() };
-    FileError { file: file.to_owned(), problem }.into()
-}
-
-/// Writes a file and the folders on its way.
-fn write(file: &Path, bytes: &[u8]) -> Result<(), RunError> {
-    let folder = file.parent().unwrap_or(Path::new("."));
-    let failed = |source| WriteError { path: folder.to_owned(), action: "create the folder", source };
-    fs::create_dir_all(folder).map_err(failed).map_err(RunError::Output)?;
-    atomic::write(file, bytes).map_err(RunError::Output)
 }

@@ -35,6 +35,8 @@ const FORMAT: &str = "phase-seal/1";
 const EVENTS_FILE: &str = "events.json";
 /// The least seed that counts as secret: a smaller one is soon found by trying all.
 const LEAST_SEED: u64 = 1 << 48;
+/// Digits of the manifest's digest in names: 32 bits.
+const NAMED_DIGITS: usize = 8;
 
 /// The content of `seal.json`.
 #[derive(Clone, PartialEq, Eq, Debug, Serialize, Deserialize)]
@@ -133,7 +135,8 @@ pub fn unseal(
     }
     let manifest = Manifest::read(&dataset.join(MANIFEST_FILE))?;
     let ids = manifest.events.iter().map(|event| event.id.as_str());
-    let names = names_of(ids, &secret_of(&manifest, &found.manifest_sha256));
+    let secret = secret_of(&manifest, &found.manifest_sha256);
+    let names = names_of(ids, &secret, &found.manifest_sha256);
     Ok(names.into_iter().map(|(id, name)| (name, id.to_owned())).collect())
 }
 
@@ -143,13 +146,23 @@ fn secret_of(manifest: &Manifest, manifest_sha256: &str) -> String {
     sha256_hex(format!("{} {manifest_sha256}", manifest.seed).as_bytes())
 }
 
-/// Names that reveal nothing, in an order that depends on a secret.
-fn names_of<'a>(ids: impl Iterator<Item = &'a str>, secret: &str) -> BTreeMap<&'a str, String> {
+/// Names that reveal nothing, in an order that depends on a secret. They begin with the published digest of
+/// the manifest, so that answers to one sealed dataset are not taken for those to another.
+fn names_of<'a>(
+    ids: impl Iterator<Item = &'a str>,
+    secret: &str,
+    manifest_sha256: &str,
+) -> BTreeMap<&'a str, String> {
+    let dataset = manifest_sha256.get(..NAMED_DIGITS).unwrap_or_default();
     let key = |id: &str| sha256_hex(format!("{secret} {id}").as_bytes());
     let distinct: BTreeSet<&str> = ids.collect();
     let mut ordered: Vec<(String, &str)> = distinct.into_iter().map(|id| (key(id), id)).collect();
     ordered.sort();
-    ordered.into_iter().enumerate().map(|(k, (_, id))| (id, format!("sealed-{:04}", k + 1))).collect()
+    ordered
+        .into_iter()
+        .enumerate()
+        .map(|(k, (_, id))| (id, format!("sealed-{dataset}-{:04}", k + 1)))
+        .collect()
 }
 
 /// Everything that is published of a dataset, but for the list of files.
@@ -170,7 +183,8 @@ fn contents(
     manifest.verify(dataset).map_err(RunError::Altered)?;
     let manifest_sha256 = sha256_hex(&regular::bytes(&file)?);
     let secret = secret_of(&manifest, &manifest_sha256);
-    let names = names_of(manifest.events.iter().map(|event| event.id.as_str()), &secret);
+    let ids = manifest.events.iter().map(|event| event.id.as_str());
+    let names = names_of(ids, &secret, &manifest_sha256);
     let source = EventInput::open(dataset, &[], listener)?;
     let mut published = BTreeMap::new();
     let mut motion = BTreeMap::new();
@@ -198,7 +212,8 @@ fn contents(
         }
         questions_sha256 = Some(sha256_hex(&regular::bytes(&file)?));
         let secret = format!("{secret} questions");
-        let videos = names_of(all.iter().map(|question| question.video.as_str()), &secret);
+        let videos = all.iter().map(|question| question.video.as_str());
+        let videos = names_of(videos, &secret, &manifest_sha256);
         let mut lines = String::new();
         for question in &all {
             lines += &public_question(question, &videos);

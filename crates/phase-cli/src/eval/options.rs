@@ -207,7 +207,6 @@ impl From<&Eval> for Evaluation {
             Eval::Trajectories(_) | Eval::Beliefs(_) | Eval::Intents(_) => (Vec::new(), None),
         };
         Self {
-            events: common.events.clone(),
             split: common.split,
             limit: common.limit.map(|limit| limit as usize),
             seed: common.seed,
@@ -217,6 +216,7 @@ impl From<&Eval> for Evaluation {
             shard: common.parts.shard,
             merge: common.parts.merge.clone(),
             threads: common.jobs.given(),
+            ..Self::new(&common.events)
         }
     }
 }

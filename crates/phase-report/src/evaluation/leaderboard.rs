@@ -33,15 +33,29 @@ pub struct Scores {
 pub struct Score {
     /// The method: the name of its files.
     pub method: String,
-    /// The set of events: the label of one of [`Benchmark::sets`].
+    /// The set of events: the label of one of [`Benchmark::sets`], or `sealed-` and the first digits of a
+    /// seal.
     pub set: String,
     /// Digest of the file of predictions.
     pub predictions: String,
     /// Digest of the events, as in [`phase_eval::benchmark::EventSet`].
     pub events: String,
+    /// The seal, if the events were sealed while they were answered.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub sealed: Option<SealedSet>,
     /// The measures.
     #[serde(flatten)]
     pub measures: Measures,
+}
+
+/// A sealed dataset.
+#[derive(Clone, PartialEq, Eq, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SealedSet {
+    /// Digest of the published description of what is sealed.
+    pub seal: String,
+    /// Number of its events.
+    pub events: usize,
 }
 
 /// The measures of a task.
@@ -126,10 +140,37 @@ pub fn leaderboard(benchmark: &Benchmark, scores: &Scores, sources: &BTreeMap<St
          Sorted by goal accuracy on generated events; methods without that score by goal accuracy on recordings. A minimal-pair \
          set counts as correct only if all its goals and relations are.\n\n\
          ## Trajectories\n\n{trajectories}\n\
-         Displacement errors of the agents in u, sorted by ADE.\n\n\
+         Displacement errors of the agents in u, sorted by ADE.\n\n{}\
          ## Submitted methods\n\n{}",
         described.collect::<Vec<_>>().join("; "),
+        sealed_section(scores),
         sources.collect::<String>(),
+    )
+}
+
+/// The scores on sealed events, by seal and then best first; nothing without any.
+fn sealed_section(scores: &Scores) -> String {
+    let lines = scores.scores.iter().filter_map(|score| {
+        let Measures::Goals { top1, relation, whole_sets } = score.measures else { return None };
+        let SealedSet { seal, events } = score.sealed.as_ref()?;
+        let cells = [seal.clone(), events.to_string(), score.method.clone()].into_iter();
+        let shares = [Some(top1), Some(relation), whole_sets].map(share_or_nothing);
+        Some((seal, -top1.value, cells.chain(shares).collect()))
+    });
+    let mut lines: Vec<(&String, f64, Vec<String>)> = lines.collect();
+    if lines.is_empty() {
+        return String::new();
+    }
+    lines.sort_by(|a, b| a.0.cmp(b.0).then(a.1.total_cmp(&b.1)));
+    let columns = head(&["seal", "events", "method", "goals", "relations", "whole sets"]);
+    let rows = lines.into_iter().map(|(_, _, cells)| cells).collect();
+    format!(
+        "## Sealed events\n\n{}\n\
+         Whoever answered had the motion alone, and labels that nobody could look up or make again \
+         ([sealed datasets](../how-to/questions.md#a-split-that-nobody-can-look-up)). The seal is the SHA-256 of the published \
+         `seal.json`. Each seal has other events, so that scores of two seals are not of the same difficulty. They are the word of \
+         whoever keeps the dataset until that is published; then everybody can score the answers again.\n\n",
+        Block::Table { head: columns, rows }.to_markdown()
     )
 }
 
@@ -230,9 +271,9 @@ fn row<'a, S>(benchmark: &Benchmark, rows: &'a [Row<S>], method: &str, label: &s
     rows.iter().find(|row| row.origin == Origin::Ours && row.method == method && row.set == set)
 }
 
-/// The methods that were handed in for a task, each once.
+/// The methods that were handed in for a task on events that everybody has, each once.
 fn handed_in(scores: &Scores, does: fn(&Measures) -> bool) -> Vec<&str> {
-    let scores = scores.scores.iter().filter(|score| does(&score.measures));
+    let scores = scores.scores.iter().filter(|score| score.sealed.is_none() && does(&score.measures));
     let mut names: Vec<&str> = scores.map(|score| score.method.as_str()).collect();
     names.sort_unstable();
     names.dedup();

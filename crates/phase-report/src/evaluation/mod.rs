@@ -12,7 +12,7 @@ pub use beliefs::beliefs;
 pub use benchmark::{Page, benchmark, figures, overview, page, to_lines};
 pub use goals::goals;
 pub use intents::intents;
-pub use leaderboard::{LEADERBOARD_FORMAT, Measures, Score, Scores, Source, leaderboard};
+pub use leaderboard::{LEADERBOARD_FORMAT, Measures, Score, Scores, SealedSet, Source, leaderboard};
 pub use questions::{AskedQuestions, TypeScore, questions_page};
 pub use trajectories::trajectories;
 

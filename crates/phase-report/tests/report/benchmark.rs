@@ -280,6 +280,7 @@ fn the_leaderboard_has_the_best_first() {
         set: "generated".into(),
         predictions: "0".into(),
         events: "0".into(),
+        sealed: None,
         measures: Measures::Trajectories { ade: estimate(ade), fde: estimate(2.0 * ade) },
     };
     let scores =

@@ -74,6 +74,11 @@ impl Input {
             return Err(RunError::Usage(format!("{}: has no {what} events", path.display())));
         }
         events.truncate(evaluation.limit.unwrap_or(usize::MAX));
+        for event in &mut events {
+            if let Some(name) = evaluation.names.get(&event.id) {
+                event.id.clone_from(name);
+            }
+        }
         let contents: String =
             events.iter().map(|event| format!("{} {}\n", event.id, event.contents)).collect();
         let (name, description) = names(path, evaluation.split);

@@ -36,7 +36,7 @@ use phase_eval::{
 };
 use phase_event::BeliefOrder;
 use ratings::Ratings;
-use std::path::PathBuf;
+use std::{collections::BTreeMap, path::PathBuf};
 use trajectories::Trajectories;
 
 /// An evaluation of a method on the events of a file or dataset.
@@ -65,6 +65,8 @@ pub struct Evaluation {
     pub merge: Vec<PathBuf>,
     /// Number of threads; without it that of this machine's cores.
     pub threads: Option<usize>,
+    /// The names that answers give to events, by those of the dataset; other events have their own.
+    pub names: BTreeMap<String, String>,
 }
 
 /// The source of the answers that are evaluated.
@@ -106,6 +108,7 @@ impl Evaluation {
             shard: None,
             merge: Vec::new(),
             threads: None,
+            names: BTreeMap::new(),
         }
     }
 
