@@ -257,6 +257,10 @@ impl Submission {
             About::Sealed(_) => Some("sealed events"),
         };
         if let Some(events) = goals_only.filter(|_| answered.contains(&TASKS[1])) {
+            if answered.len() == 1 {
+                let rule = format!("has forecasts alone, but on {events} goals are scored only");
+                return Err(unfit(&self.predictions, &rule));
+            }
             listener.note(&format!("note: on {events} goals are scored only; the forecasts are left out"));
         }
         let mut scores = Vec::new();

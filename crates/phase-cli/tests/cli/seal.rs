@@ -144,6 +144,11 @@ fn a_score_needs_the_dataset_that_was_sealed_and_answers_to_it() {
     fs::write(path.join("fewer.json"), fewer.to_string()).expect("written");
     let told = fail(path, &submission("fewer.json", "secret", "public"));
     assert!(told.contains("fewer.json") && told.contains("sealed-") && !told.contains("demo-"), "{told}");
+    // The motion to be forecast is published.
+    let forecasts = answered.replace("\"goals\"", "\"forecast\"");
+    fs::write(path.join("forecasts.json"), forecasts).expect("written");
+    let told = fail(path, &submission("forecasts.json", "secret", "public"));
+    assert!(told.contains("has forecasts alone"), "{told}");
     assert!(!path.join("checkout").exists(), "nothing is written unless all is valid");
 }
 
