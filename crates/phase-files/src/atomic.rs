@@ -54,24 +54,29 @@ pub fn write_json_line(path: &Path, value: &impl Serialize) -> Result<(), WriteE
 /// Removes the temporary files of a file that programs have left which were killed while they wrote it. Those
 /// that are being written are locked, and stay.
 pub fn remove_abandoned(path: &Path) {
-    let Some((folder, name)) = path.parent().zip(path.file_name()) else { return };
-    let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
-    let begin = format!(".{}.", name.to_string_lossy());
-    for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
-        let part = entry.file_name().to_string_lossy().into_owned();
-        let numbers = part.strip_prefix(&begin).and_then(|rest| rest.strip_suffix(PART_SUFFIX));
-        let is_part = numbers.is_some_and(|it| it.bytes().all(|byte| byte.is_ascii_digit() || byte == b'.'));
-        if !is_part {
-            continue;
-        }
-        if let Ok(file) = regular::open(&entry.path())
+    for part in parts_of(path) {
+        if let Ok(file) = regular::open(&part)
             && file.try_lock().is_ok()
         {
             // One that cannot be removed is harmless. It stays locked meanwhile, so that nobody takes it for
             // its own.
-            let _ = fs::remove_file(entry.path());
+            let _ = fs::remove_file(&part);
         }
     }
+}
+
+/// What has temporary names of a file or folder, see [`part_path`].
+pub(crate) fn parts_of(path: &Path) -> Vec<PathBuf> {
+    let Some((folder, name)) = path.parent().zip(path.file_name()) else { return Vec::new() };
+    let listed = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
+    let begin = format!(".{}.", name.to_string_lossy());
+    let entries = fs::read_dir(listed).into_iter().flatten().flatten().map(|entry| entry.file_name());
+    let parts = entries.filter(|part| {
+        let part = part.to_string_lossy();
+        let numbers = part.strip_prefix(&begin).and_then(|rest| rest.strip_suffix(PART_SUFFIX));
+        numbers.is_some_and(|it| it.bytes().all(|byte| byte.is_ascii_digit() || byte == b'.'))
+    });
+    parts.map(|part| folder.join(part)).collect()
 }
 
 /// Removes a file if it exists.
@@ -206,7 +211,7 @@ fn create_locked(path: &Path, mut options: OpenOptions) -> io::Result<(PathBuf, 
 /// A hidden name beside a path. The process number keeps two programs apart. The other number is new each
 /// time: whoever has opened a file to see whether it is abandoned must not remove another that has its name
 /// by then.
-fn part_path(path: &Path) -> PathBuf {
+pub(crate) fn part_path(path: &Path) -> PathBuf {
     static FILES: AtomicU64 = AtomicU64::new(0);
     let file = FILES.fetch_add(1, Ordering::Relaxed);
     let mut name = OsString::from(".");
@@ -216,7 +221,7 @@ fn part_path(path: &Path) -> PathBuf {
 }
 
 /// Makes the new name last through a power cut, where the system lets one sync a folder.
-fn sync_folder(path: &Path) {
+pub(crate) fn sync_folder(path: &Path) {
     let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
     if let Ok(folder) = File::open(folder.unwrap_or_else(|| Path::new("."))) {
         let _ = folder.sync_all();

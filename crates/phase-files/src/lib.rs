@@ -3,7 +3,7 @@
 //! - [`atomic`] writes files beside their place, syncs and renames them; [`checksum`] measures them, and
 //!   [`measured`] does so while they are written.
 //! - [`folder`] locks a folder and records which run it belongs to; [`cache`] keeps results of an interrupted
-//!   run.
+//!   run; [`new_folder`] fills a folder that is not there, and it appears when it is whole.
 //! - [`run`] says which run it is, and hashes its description; two runs are compared by it.
 //! - [`regular`] reads files, and only those that are regular; [`json`] reads files of JSON.
 //! - [`incidental`] names the files that systems and tools leave in folders.
@@ -48,6 +48,7 @@ pub mod folder;
 pub mod incidental;
 pub mod json;
 pub mod measured;
+pub mod new_folder;
 pub mod private;
 pub mod regular;
 pub mod run;

@@ -7,7 +7,7 @@
 
 use crate::{
     error::RunError,
-    laboratory::{create, unusable},
+    laboratory::unusable,
     listener::Listener,
     questions::{QUESTIONS_FILE, questions},
     source::EventInput,
@@ -15,8 +15,8 @@ use crate::{
 use phase_dataset::manifest::{MANIFEST_FILE, Manifest};
 use phase_event::{FILE_FORMAT, Recording};
 use phase_files::{
-    atomic,
     checksum::{FileEntry, sha256_hex},
+    new_folder::NewFolder,
     regular,
 };
 use phase_questions::{Control, Question};
@@ -70,21 +70,19 @@ pub fn seal(
     out: &Path,
     listener: &dyn Listener,
 ) -> Result<Seal, RunError> {
-    if std::fs::read_dir(out).is_ok_and(|mut entries| entries.next().is_some()) {
-        return Err(unusable(out, "is not empty; choose a new folder"));
-    }
+    let new = NewFolder::create(out)?;
     let (mut seal, published) = contents(dataset, benchmark, listener)?;
-    create(out)?;
     for (path, content) in &published {
-        let place = out.join(path);
-        place.parent().map(create).transpose()?;
         match content {
-            Published::Text(text) => atomic::write(&place, text.as_bytes())?,
-            Published::Copy(from) => atomic::write(&place, &regular::bytes(from)?)?,
+            Published::Text(text) => new.write(path, text.as_bytes())?,
+            Published::Copy(from) => new.write(path, &regular::bytes(from)?)?,
         }
-        seal.files.push(FileEntry::of(out, path.as_str()).map_err(RunError::ReadBack)?);
+        seal.files.push(FileEntry::of(new.part(), path.as_str()).map_err(RunError::ReadBack)?);
     }
-    atomic::write_json(&out.join(SEAL_FILE), &seal)?;
+    let text = serde_json::to_string_pretty(&seal);
+    let text = text.map_err(|source| RunError::Serialise { what: "the seal", source })?;
+    new.write(SEAL_FILE, format!("{text}\n").as_bytes())?;
+    new.commit()?;
     Ok(seal)
 }
 

@@ -3,10 +3,16 @@
 
 use std::{error::Error, io::Write as _, iter::successors};
 
-/// Tells of a failure and its causes.
+/// Tells of a failure and its causes, each once: many errors have the words of their cause.
 pub(crate) fn failure(error: &dyn Error) {
-    let causes = successors(Some(error), |error| (*error).source()).map(ToString::to_string);
-    line(&format!("error: {}", causes.collect::<Vec<_>>().join(": ")));
+    let mut text = format!("error: {error}");
+    for cause in successors(error.source(), |cause| (*cause).source()) {
+        let cause = cause.to_string();
+        if !text.ends_with(&cause) {
+            text += &format!(": {cause}");
+        }
+    }
+    line(&text);
 }
 
 /// Tells something.

@@ -5,7 +5,8 @@ use super::{
     options::{BackupStudy, ExportStudy, ReportStudy},
 };
 use crate::{console::print_message, error::CliError};
-use phase_files::{FileError, Problem, WriteError, atomic, incidental, private, regular, told};
+use phase_files::{FileError, Problem, WriteError, atomic, new_folder::NewFolder, private, regular, told};
+use phase_runs::error::RunError;
 use phase_study::{
     analysis::{Analysis, document},
     config::StudyConfig,
@@ -20,6 +21,9 @@ use std::{
     fs,
     path::{Path, PathBuf},
 };
+
+/// What raters said of each event, in the folder that Psych-DS has for what was made of the data.
+const RATINGS_FILE: &str = "products/ratings.json";
 
 /// The file with the answers of a study: the one that is given, or that of the study's name in the folder of
 /// a server.
@@ -108,24 +112,19 @@ pub(super) fn export(arguments: &ExportStudy) -> Result<(), CliError> {
     let out = &arguments.out;
     let (config, forms) = read(&arguments.config)?;
     let raters = raters(&config, &forms, &arguments.answers)?;
-    let is_empty = incidental::is_empty(out).unwrap_or(false);
-    if !is_empty {
-        return Err(CliError::Usage(format!("--out: {} is not an empty folder", out.display())));
-    }
     let ratings = ratings(&config, &raters);
     let files = psych_ds(&config, &forms, &raters, arguments.external_ids);
-    folder(&out.join("data"))?;
+    let new = NewFolder::create_private(out).map_err(RunError::Folder)?;
     for file in &files {
-        atomic::write_private(&out.join(&file.path), file.text.as_bytes()).map_err(CliError::Output)?;
+        new.write(&file.path, file.text.as_bytes()).map_err(CliError::Output)?;
     }
-    // Psych-DS has a folder for what was made of the data.
-    let file = out.join("products/ratings.json");
     let rated =
         ratings.as_ref().map_or(0, |ratings| ratings["ratings"].as_object().map_or(0, serde_json::Map::len));
     if let Some(ratings) = ratings.filter(|_| rated > 0) {
-        folder(&out.join("products"))?;
-        atomic::write_json(&file, &ratings).map_err(CliError::Output)?;
+        new.write(RATINGS_FILE, format!("{ratings:#}\n").as_bytes()).map_err(CliError::Output)?;
     }
+    new.commit().map_err(RunError::Folder)?;
+    let file = out.join(RATINGS_FILE);
     let paths: Vec<&str> = files.iter().map(|file| file.path.as_str()).collect();
     let rated_file = (rated > 0).then_some(&file);
     let rated_file = rated_file.map(|file| told(file));

@@ -1,6 +1,6 @@
 //! Clips, regressors, areas of interest, matrices, matched groups and packs, from one small dataset.
 
-use crate::support::{refuse, succeed, tree};
+use crate::support::{refuse, succeed, tree, whole_or_absent};
 use serde_json::Value;
 use std::{collections::BTreeSet, fs, path::Path, process::Command};
 
@@ -186,6 +186,8 @@ fn events_become_stimuli() {
         assert!(path.join("psychopy").join(&trial[2]).is_file(), "{trial:?}");
         assert!(path.join("psychopy").join(&trial[3]).join("0039.png").is_file(), "{trial:?}");
     }
-    assert!(refuse(path, &["pack", "clips", "--for", "psychopy", "--out", "psychopy"]).contains("not empty"));
+    let again = refuse(path, &["pack", "clips", "--for", "psychopy", "--out", "psychopy"]);
+    assert!(again.contains("choose an empty or a new folder"), "{again}");
+    whole_or_absent(path, &["pack", "clips", "--for", "gorilla"]);
     assert!(refuse(path, &["pack", "clips", "--for", "qualtrics", "--out", "q"]).contains("--address"));
 }

@@ -1,6 +1,6 @@
 //! Sealed datasets, from the secret seed to the proof.
 
-use crate::support::{fail, refuse, succeed};
+use crate::support::{fail, refuse, succeed, whole_or_absent};
 use serde_json::{Value, json};
 use std::{fs, path::Path};
 
@@ -57,6 +57,7 @@ fn another_dataset_or_a_changed_file_is_no_proof() {
     let path = folder.path();
     generate(path, "secret", SEED);
     succeed(path, &["seal", "secret", "--out", "public"]);
+    whole_or_absent(path, &["seal", "secret"]);
     generate(path, "other", "11259375999999999998");
     let told = fail(path, &["unseal", "public", "--dataset", "other"]);
     assert!(told.contains("the manifest of other is not what was sealed"), "{told}");

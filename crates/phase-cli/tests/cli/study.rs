@@ -19,7 +19,7 @@ fn a_program_without_studies_says_how_to_get_them() {
 #[cfg(feature = "serve")]
 mod built_in {
     use super::*;
-    use crate::support::{recording, run, succeed, text, write_events};
+    use crate::support::{recording, run, succeed, text, whole_or_absent, write_events};
     #[cfg(all(feature = "serve", unix))]
     use crate::{serve::Served, walks::walk_and_look};
     use phase_study::{
@@ -111,11 +111,12 @@ mod built_in {
         assert!(export.contains_key(Path::new("dataset_description.json")));
         let tables: Vec<String> = export.values().map(|bytes| text(bytes)).collect();
         assert!(tables.iter().all(|table| !table.contains("person-0")), "ids stay here");
+        whole_or_absent(path, &[&["study", "export"], &answers[..]].concat());
         succeed(path, &[&["study", "export"], &answers[..], &["--out", "named", "--external-ids"]].concat());
         assert!(tree(&path.join("named")).values().any(|bytes| text(bytes).contains("person-0")));
         assert!(
             refuse(path, &[&["study", "export"], &answers[..], &["--out", "named"]].concat())
-                .contains("not an empty folder")
+                .contains("contains other files")
         );
 
         let evaluated = succeed(

@@ -105,3 +105,42 @@ pub(crate) fn write_events(path: &Path, events: &[Value]) {
     let file = json!({"format": "phase-events/1", "events": events});
     fs::write(path, file.to_string()).expect("written");
 }
+
+/// Runs a command that fills the new folder `out` with a fault at each of its steps of writing: while the
+/// disk is full, and killed. It then leaves nothing in that folder, and works afterwards.
+pub(crate) fn whole_or_absent(path: &Path, arguments: &[&str]) {
+    let arguments = [arguments, &["--out", "out"]].concat();
+    let out = path.join("out");
+    succeed(path, &arguments);
+    let whole = tree(&out);
+    let seen = || if out.exists() { tree(&out) } else { BTreeMap::new() };
+    // A kill between the moves of files into a folder that was there is not provided for.
+    for (fault, is_there) in [("full", false), ("full", true), ("kill", false)] {
+        for step in 1.. {
+            if out.exists() {
+                fs::remove_dir_all(&out).expect("removed");
+            }
+            if is_there {
+                fs::create_dir(&out).expect("a folder");
+            }
+            let output = phase(path).args(&arguments).env("PHASE_FAULT", format!("{fault}@{step}")).output();
+            let output = output.expect("the program starts");
+            if output.status.success() {
+                assert!(step > whole.len(), "{arguments:?}: {fault} has no more than {step} steps");
+                break;
+            }
+            let (told, left) = (text(&output.stderr), seen());
+            assert_eq!(told.contains("error: "), fault == "full", "{told}");
+            // A kill comes also when the folder has its name.
+            assert!(left.is_empty() || (fault == "kill" && left == whole), "{arguments:?}: {fault}@{step}");
+            assert_eq!(out.exists(), is_there || !left.is_empty(), "{arguments:?}: {fault}@{step}");
+        }
+        if seen().is_empty() {
+            succeed(path, &arguments);
+        }
+        assert!(seen() == whole, "{arguments:?}");
+    }
+    let left = fs::read_dir(path).expect("a folder").map(|it| it.expect("an entry").file_name());
+    let mut hidden = left.filter(|name| name.to_string_lossy().ends_with(".part"));
+    assert_eq!(hidden.next(), None, "{arguments:?}");
+}

@@ -5,5 +5,6 @@ mod cache;
 mod checksum;
 mod folder;
 mod measured;
+mod new_folder;
 mod regular;
 mod run;

@@ -1,9 +1,9 @@
 //! Packs of videos for experiment platforms.
 
-use super::{CLIPS_FILE, create, tables::unusable};
+use super::{CLIPS_FILE, tables::unusable};
 use crate::{error::RunError, listener::Listener};
 use phase_dataset::manifest::{MANIFEST_FILE, Manifest};
-use phase_files::{atomic, incidental, regular};
+use phase_files::{new_folder::NewFolder, regular};
 use phase_laboratory::{
     counterbalance::{Stimulus, lists},
     platform::{Platform, Question, Trial, files},
@@ -68,9 +68,7 @@ impl Pack {
     /// If videos are missing, the folder is not empty or cannot be written, or the lists cannot be
     /// counterbalanced.
     pub fn run(&self, listener: &dyn Listener) -> Result<Packed, RunError> {
-        if incidental::is_empty(&self.out).is_ok_and(|is_empty| !is_empty) {
-            return Err(unusable(&self.out, "is not empty; choose a new folder"));
-        }
+        let new = NewFolder::create(&self.out)?;
         let items = self.items()?;
         if let Some(id) = self.ids.iter().find(|id| items.iter().all(|item| item.trial.id != **id)) {
             let known = items.iter().map(|item| item.trial.id.as_str());
@@ -88,25 +86,24 @@ impl Pack {
         let trials: Vec<Vec<Trial>> = orders.iter().map(|order| self.with_checks(order, &items)).collect();
         let texts = files(self.platform, &trials, QUESTION, &self.address)
             .map_err(|error| RunError::Usage(format!("the tables cannot be written: {error}")))?;
-        let folder = self.out.join(self.platform.stimuli());
-        create(&folder)?;
+        let folder = Path::new(self.platform.stimuli());
         let progress = listener.progress_over("copying videos", items.len());
         for item in &items {
-            atomic::write(&folder.join(&item.trial.video), &regular::bytes(&item.place)?)?;
+            new.write(folder.join(&item.trial.video), &regular::bytes(&item.place)?)?;
             if item.trial.frames > 0 && matches!(self.platform, Platform::Psychopy | Platform::Pavlovia) {
                 let (from, to) = (item.place.with_extension(""), folder.join(&item.trial.id));
-                create(&to)?;
                 for frame in 0..item.trial.frames {
                     let name = format!("{frame:04}.png");
-                    atomic::write(&to.join(&name), &regular::bytes(&from.join(&name))?)?;
+                    new.write(to.join(&name), &regular::bytes(&from.join(&name))?)?;
                 }
             }
             progress.steps(1);
         }
         drop(progress);
         for (name, text) in &texts {
-            atomic::write(&self.out.join(name), text.as_bytes())?;
+            new.write(name, text.as_bytes())?;
         }
+        new.commit()?;
         Ok(Packed {
             videos: items.len(),
             trials: trials.iter().map(Vec::len).collect(),
