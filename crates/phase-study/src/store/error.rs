@@ -60,6 +60,9 @@ pub enum StoreProblem {
         /// The damage, in a clause.
         what: String,
     },
+    /// The database gives such names to files of its own, and removes them.
+    #[error("cannot be a copy: a name that ends in -wal, -shm or -journal belongs to the database")]
+    Reserved,
     /// It is not whole.
     #[error(
         "is damaged, as a copy made while somebody answered may be; `phase study backup` copies it whole"

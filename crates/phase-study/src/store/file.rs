@@ -49,8 +49,13 @@ impl Answers {
 /// Copies the answers of a study, while raters answer or not, into a file that is empty or does not exist.
 ///
 /// # Errors
-/// [`StoreError`] if the file is none of a study or damaged, or the copy cannot be written.
+/// [`StoreError`] if the file is none of a study or damaged, or the copy cannot be written or has a name of which
+/// the database disposes.
 pub fn backup(from: &Path, to: &Path) -> Result<(), StoreError> {
+    let name = to.as_os_str().as_encoded_bytes();
+    if ["-wal", "-shm", "-journal"].iter().any(|ending| name.ends_with(ending.as_bytes())) {
+        return Err(StoreError { file: to.to_owned(), problem: StoreProblem::Reserved });
+    }
     let failed = |problem| StoreError { file: from.to_owned(), problem };
     let connection = open(from)?;
     if schema::number(&connection, "application_id").map_err(failed)? != schema::APPLICATION {

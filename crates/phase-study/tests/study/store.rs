@@ -258,6 +258,10 @@ fn a_copy_has_all_answers() {
     assert!(backup(&file, &copy).is_err());
     fs::write(folder.path().join("x"), "rubbish".repeat(1000)).expect("written");
     assert!(backup(&folder.path().join("x"), &folder.path().join("y")).is_err());
+    for ending in ["-wal", "-shm", "-journal"] {
+        let refused = backup(&file, &folder.path().join(format!("answers.sqlite{ending}")));
+        assert!(matches!(refused.expect_err("refused").problem, StoreProblem::Reserved));
+    }
 }
 
 /// Paths are not text.
