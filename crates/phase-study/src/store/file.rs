@@ -49,8 +49,8 @@ impl Answers {
 /// Copies the answers of a study, while raters answer or not, into a file that is empty or does not exist.
 ///
 /// # Errors
-/// [`StoreError`] if the file is none of a study or damaged, or the copy cannot be written or has a name of which
-/// the database disposes.
+/// [`StoreError`] if the file is none of a study or damaged, or the copy cannot be written or has a name that
+/// belongs to the database.
 pub fn backup(from: &Path, to: &Path) -> Result<(), StoreError> {
     let name = to.as_os_str().as_encoded_bytes();
     if ["-wal", "-shm", "-journal"].iter().any(|ending| name.ends_with(ending.as_bytes())) {
