@@ -65,7 +65,7 @@ pub fn remove_abandoned(path: &Path) {
     }
 }
 
-/// What has temporary names of a file or folder, see [`part_path`].
+/// The files and folders that have temporary names of a file or folder, see [`part_path`].
 pub(crate) fn parts_of(path: &Path) -> Vec<PathBuf> {
     let Some((folder, name)) = path.parent().zip(path.file_name()) else { return Vec::new() };
     let listed = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };

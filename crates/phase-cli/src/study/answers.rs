@@ -22,7 +22,7 @@ use std::{
     path::{Path, PathBuf},
 };
 
-/// What raters said of each event, in the folder that Psych-DS has for what was made of the data.
+/// The ratings of each event, in the folder that Psych-DS has for what was made of the data.
 const RATINGS_FILE: &str = "products/ratings.json";
 
 /// The file with the answers of a study: the one that is given, or that of the study's name in the folder of
