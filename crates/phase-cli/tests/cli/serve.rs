@@ -104,7 +104,7 @@ fn it_serves_until_it_is_told_to_stop() {
     assert!(folder.path().join("kept/rooms").is_dir() && folder.path().join("kept/events").is_dir());
 }
 
-/// What the person in charge downloads is all recordings or none; the log names the one that is broken.
+/// A download has all recordings or is refused; then the log names the one that is broken.
 #[cfg(unix)]
 #[test]
 fn a_broken_recording_is_named() {

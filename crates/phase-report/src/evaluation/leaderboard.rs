@@ -167,9 +167,10 @@ fn sealed_section(scores: &Scores) -> String {
     format!(
         "## Sealed events\n\n{}\n\
          Whoever answered had the motion alone, and labels that nobody could look up or make again \
-         ([sealed datasets](../how-to/questions.md#a-split-that-nobody-can-look-up)). The seal is the SHA-256 of the published \
-         `seal.json`. Each seal has other events, so that scores of two seals are not of the same difficulty. They are the word of \
-         whoever keeps the dataset until that is published; then everybody can score the answers again.\n\n",
+         ([sealed datasets](../how-to/questions.md#a-split-that-nobody-can-look-up)). The seal is the \
+         SHA-256 of the published `seal.json`. Each seal has other events, so that scores of two seals are \
+         not of the same difficulty. They are the word of whoever keeps the dataset until that is published; \
+         then everybody can score the answers again.\n\n",
         Block::Table { head: columns, rows }.to_markdown()
     )
 }

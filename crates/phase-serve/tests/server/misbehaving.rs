@@ -72,7 +72,7 @@ fn pings_without_end_close_the_connection() {
     player.until(|it| it["type"] == "welcome");
 }
 
-/// Who pings before it says who it is may play all the same.
+/// A client may ping before it says who it is, and plays all the same.
 #[test]
 fn a_ping_may_come_first() {
     let server = Running::start(settings());
