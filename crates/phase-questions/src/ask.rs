@@ -8,7 +8,7 @@ pub(crate) mod tests;
 pub(crate) use shown::shows_relation;
 
 use crate::{
-    Alternative, Facts, Query,
+    Alternative, Facts, Query, SimulatedFutures,
     facts::nearer,
     query::{clear_room, room_value},
 };
@@ -275,20 +275,9 @@ impl Asker<'_> {
             }
         }
         if let Some(futures) = &inside.futures {
-            let cut = futures.step;
-            let after = futures.steps;
-            for entity in self.entities() {
-                let (Some(state), Some(end)) = (inside.states.get(cut), inside.states.get(cut + after))
-                else {
-                    continue;
-                };
-                let rooms = futures.ends.iter().map(|end| clear_room(end, entity));
-                let rooms: Vec<Option<RoomId>> = rooms.chain([clear_room(end, entity)]).collect();
-                let (Some(now), Some(room)) = (clear_room(state, entity), rooms[0]) else { continue };
-                let values: Vec<String> = rooms_beside(now).chain([now]).map(room_value).collect();
-                if !values.contains(&room_value(room)) || rooms.iter().any(|&it| it != Some(room)) {
-                    continue;
-                }
+            let (cut, after) = (futures.step, futures.steps);
+            for (entity, now, room) in foreseen(self.facts, &inside.states, futures) {
+                let values = rooms_beside(now).chain([now]).map(room_value).collect();
                 let what = if matches!(entity, Entity::Agent(_)) { "agent" } else { "object" };
                 let proof = json!({
                     "rule": "futures simulated from the last state of the video, and the event itself",
@@ -311,7 +300,7 @@ impl Asker<'_> {
 /// Whether a goal is reached only without the idle agent (`better`), only with it (`worse`), or equally soon
 /// (`same`); `None` where it is missed both times, or nearly reached once, or sooner once.
 fn change(track: &Track, judged: Goal, without: &Alternative) -> Option<(&'static str, Effect)> {
-    if judged.sign() == Sign::Negative || judged.landmark().is_none() {
+    if !tells(track, judged) {
         return None;
     }
     let effect =
@@ -324,6 +313,43 @@ fn change(track: &Track, judged: Goal, without: &Alternative) -> Option<(&'stati
         (false, false) => None,
     };
     value.map(|value| (value, effect))
+}
+
+/// Whether a goal has an outcome that can be compared with another: something is to be at a landmark, and is
+/// there at some time, or clearly away from it at the end.
+fn tells(track: &Track, judged: Goal) -> bool {
+    let is_clear = || {
+        GoalOutcome::of(track, judged).reached
+            || track.states.last().is_some_and(|state| is_missed(state, judged))
+    };
+    judged.sign() == Sign::Positive && judged.landmark().is_some() && is_clear()
+}
+
+/// Whether a question can follow from the course of an event without an agent. If not, that course need not
+/// be simulated.
+#[must_use]
+pub fn asks_without(facts: &Facts, idle: AgentId) -> bool {
+    tells(&facts.track, facts.scene.agents[idle.other()].goal)
+}
+
+/// The entities that end in one room in the event and in all its futures: for each its room when the futures
+/// begin, and that at their end, which is the same or beside it. `states` are those of the event. With more
+/// futures there can only be fewer.
+#[must_use]
+pub fn foreseen(
+    facts: &Facts,
+    states: &[State],
+    futures: &SimulatedFutures,
+) -> Vec<(Entity, RoomId, RoomId)> {
+    let SimulatedFutures { step, steps, ends } = futures;
+    let (Some(state), Some(end)) = (states.get(*step), states.get(step + steps)) else { return Vec::new() };
+    let of = |entity: Entity| {
+        let (now, room) = (clear_room(state, entity)?, clear_room(end, entity)?);
+        let is_near = room == now || rooms_beside(now).any(|it| it == room);
+        let is_agreed = ends.iter().all(|end| clear_room(end, entity) == Some(room));
+        (is_near && is_agreed).then_some((entity, now, room))
+    };
+    facts.track.physics.entities().filter_map(of).collect()
 }
 
 fn is_missed(state: &State, goal: Goal) -> bool {

@@ -38,7 +38,7 @@ mod question;
 mod score;
 mod words;
 
-pub use ask::{idle_of, is_about_beliefs};
+pub use ask::{asks_without, foreseen, idle_of, is_about_beliefs};
 pub use benchmark::{frames_needed, questions};
 pub use facts::{Alternative, Facts, Inside, SimulatedFutures, Watched, believed_rooms};
 pub use frames::{BUDGETS, reordered, sampled, shown_steps, stills};

@@ -106,8 +106,9 @@ pub type Given = [Option<Action>; AGENT_COUNT];
 ///
 /// It is for programs in which something else than minds decides, such as a game, an environment for learning
 /// or a page in a browser: [`step`](Self::step) takes an action for either agent, or lets its mind decide.
-/// Without given actions the event is that of [`simulate`], bit for bit.
-#[derive(Debug)]
+/// Without given actions the event is that of [`simulate`], bit for bit. A copy goes on as the original does;
+/// a [`branch`](Self::branch) goes on with other random numbers.
+#[derive(Clone, Debug)]
 pub struct Simulation {
     settings: SimulationSettings,
     physics: PhysicsConfig,
@@ -226,6 +227,47 @@ impl Simulation {
         }
     }
 
+    /// A copy with the same past, in which both agents believe the same, and with the random numbers of `seed`
+    /// from here on. Decisions that were made ahead are made again. With the original's random numbers
+    /// ([`phase_minds::MindParameters`] of published minds), which no seed changes, beliefs alone part.
+    ///
+    /// # Examples
+    /// Two futures of one moment:
+    ///
+    /// ```
+    /// use phase_minds::MindParameters;
+    /// use phase_model::Scene;
+    /// use phase_sim::{Simulation, SimulationSettings};
+    ///
+    /// let scene = Scene::from_json(
+    ///     r#"{"layout": {"base": 0}, "objects": [], "event": "independent", "agents": [
+    ///         {"size_level": 0, "strength_level": 2, "alpha": 0, "start": {"x": 23.5, "y": 14, "angle": 0},
+    ///          "goal": {"kind": "agent_on_landmark", "agent": 0, "landmark": 1, "sign": 1}},
+    ///         {"size_level": 0, "strength_level": 2, "alpha": 0, "start": {"x": 8.5, "y": 19.5, "angle": 0},
+    ///          "goal": {"kind": "agent_on_landmark", "agent": 1, "landmark": 0, "sign": 1}}]}"#,
+    /// )?;
+    /// let minds = MindParameters::default().with_particles(5).with_simulations(50);
+    /// let settings = SimulationSettings { max_steps: 20, minds, ..SimulationSettings::default() };
+    /// let mut simulation = Simulation::new(&scene, 1, &settings)?;
+    /// for _ in 0..4 {
+    ///     simulation.step([None, None])?;
+    /// }
+    /// let mut other = simulation.branch(2);
+    /// assert_eq!(other.state(), simulation.state());
+    /// simulation.step([None, None])?;
+    /// other.step([None, None])?;
+    /// assert_eq!(other.event().steps.len(), simulation.event().steps.len());
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn branch(&self, seed: u64) -> Self {
+        let mut branch = self.clone();
+        branch.minds.beliefs = AgentId::ALL.map(|agent| belief_stream(seed, agent));
+        branch.minds.searches = AgentId::ALL.map(|agent| search_stream(seed, agent));
+        branch.minds.decided = [None, None];
+        branch
+    }
+
     /// Whether the event has come to its end: nothing happens any more, or it has as many steps as the
     /// settings allow.
     #[must_use]
@@ -279,8 +321,12 @@ pub(crate) fn belief_stream(seed: u64, agent: AgentId) -> Pcg64Mcg {
     random::stream(seed, Purpose::Belief, agent.number().into())
 }
 
+fn search_stream(seed: u64, agent: AgentId) -> Pcg64Mcg {
+    random::stream(seed, Purpose::Search, agent.number().into())
+}
+
 /// Both agents with their random streams.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 struct Minds {
     agents: [Option<Agent>; AGENT_COUNT],
     beliefs: [Pcg64Mcg; AGENT_COUNT],
@@ -305,7 +351,7 @@ impl Minds {
         minds: [bool; AGENT_COUNT],
     ) -> Result<Self, SimulationError> {
         let mut beliefs: [Pcg64Mcg; AGENT_COUNT] = AgentId::ALL.map(|agent| belief_stream(seed, agent));
-        let searches = AgentId::ALL.map(|agent| random::stream(seed, Purpose::Search, agent.number().into()));
+        let searches = AgentId::ALL.map(|agent| search_stream(seed, agent));
         let mut mind = |agent: AgentId| {
             let mut new = || {
                 let first = first_observation(scene, settings.minds.kind(), initial, agent);

@@ -1,7 +1,7 @@
 //! Tests of the choice of questions about an event: those that a viewer could not answer are not asked.
 
-use super::{Draft, about_event};
-use crate::{Alternative, Facts, FrameBudget, Inside, Query, sampled, stills};
+use super::{Draft, about_event, asks_without, foreseen};
+use crate::{Alternative, Facts, FrameBudget, Inside, Query, SimulatedFutures, sampled, stills};
 use phase_evidence::{Track, contact};
 use phase_model::{
     AgentId, Entity, Grip, LandmarkId, ObjectId, RoomId, Scene, Side, State, Vec2, arena::LANDMARKS,
@@ -203,6 +203,11 @@ fn what_would_have_been_is_asked_about_clear_outcomes() {
         asked(&facts, "without")
     };
     let value = |with, without| drafts(with, without).first().map(|draft| draft.value.clone());
+    for (with, is_worth_it) in [(&reached, true), (&failed, true), (&nearly, false)] {
+        assert_eq!(asks_without(with, agent), is_worth_it);
+        let some = [&reached, &failed, &nearly].iter().any(|without| value(with, without).is_some());
+        assert_eq!(some, is_worth_it, "what is not simulated is not asked");
+    }
     assert_eq!(value(&reached, &failed).as_deref(), Some("worse"));
     assert_eq!(value(&failed, &reached).as_deref(), Some("better"));
     assert_eq!(value(&reached, &reached).as_deref(), Some("same"));
@@ -213,4 +218,29 @@ fn what_would_have_been_is_asked_about_clear_outcomes() {
         let text = crate::words::question(&drafts(&reached, &failed)[0].query, phrasing, &names);
         assert!(text.contains(&names.landmark(LandmarkId::ALL[2])), "{text}");
     }
+}
+
+/// More futures never foresee more, and what is foreseen is where every future ends.
+#[test]
+fn what_is_foreseen_is_agreed_on_by_all_futures() {
+    let (here, beside, across) = (FAR[0], FAR[1], Vec2::new(24.0, 5.0));
+    let facts = event("independent", [0, 0], |step| [if step < 5 { here } else { beside }, across, START]);
+    let states = facts.track.states.clone();
+    let end = |place| {
+        let mut state = states[0];
+        state.bodies[0].position = place;
+        state.bodies[1].position = across;
+        state
+    };
+    let room = phase_model::layout::room_of;
+    let agent = Entity::Agent(AgentId::ZERO);
+    let of = |ends: &[State]| {
+        let futures = SimulatedFutures { step: 2, steps: 6, ends: ends.to_vec() };
+        foreseen(&facts, &states, &futures).into_iter().find(|it| it.0 == agent)
+    };
+    let found = Some((agent, room(here), room(beside)));
+    assert_eq!(of(&[]), found, "the event itself says so");
+    assert_eq!(of(&[end(beside), end(beside)]), found);
+    assert_eq!(of(&[end(beside), end(here)]), None);
+    assert_eq!(of(&[end(across)]), None);
 }

@@ -31,16 +31,20 @@ pub(super) struct Watcher<'a> {
     judged: BTreeMap<(&'a str, Option<usize>), (&'a Facts, Judged)>,
 }
 
-/// Every event that questions show, with the last step that is shown.
+/// Every event that questions show, with the last step that is shown, and whether a judgement about it can
+/// answer any of them.
 pub(super) fn all_shown<'a>(
     facts: &BTreeMap<&str, &'a Facts>,
     all: &[Question],
-) -> Vec<(&'a Facts, Option<usize>)> {
-    let shown: BTreeSet<(&str, Option<usize>)> = all
-        .iter()
-        .flat_map(|question| question.events.iter().map(|event| (event.as_str(), question.until)))
-        .collect();
-    shown.into_iter().filter_map(|(event, until)| Some((*facts.get(event)?, until))).collect()
+) -> Vec<(&'a Facts, Option<usize>, bool)> {
+    let mut shown: BTreeMap<(&str, Option<usize>), bool> = BTreeMap::new();
+    for question in all {
+        for event in &question.events {
+            *shown.entry((event, question.until)).or_default() |= question.query.is_judged();
+        }
+    }
+    let known = |((event, until), is_judged)| Some((*facts.get(event)?, until, is_judged));
+    shown.into_iter().filter_map(known).collect()
 }
 
 /// The motion that is shown, up to a step.
@@ -104,8 +108,9 @@ fn observed(facts: &Facts, track: &Track) -> Result<ObservedEvent, RunError> {
 }
 
 impl<'a> Watcher<'a> {
-    pub(super) fn new(shown: Vec<(&'a Facts, Option<usize>)>, judged: Vec<Judged>) -> Self {
-        let entry = |((facts, until), judged): ((&'a Facts, _), Judged)| {
+    /// `judged` has one entry for each of `shown`.
+    pub(super) fn new(shown: Vec<(&'a Facts, Option<usize>, bool)>, judged: Vec<Judged>) -> Self {
+        let entry = |((facts, until, _), judged): ((&'a Facts, _, _), Judged)| {
             ((facts.id.as_str(), until), (facts, judged))
         };
         Self { judged: shown.into_iter().zip(judged).map(entry).collect() }

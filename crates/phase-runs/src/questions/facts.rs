@@ -7,7 +7,6 @@ use crate::{
     interrupt,
     source::{EventInput, track},
 };
-use core::ops::ControlFlow;
 use phase_dataset::{
     manifest::{MANIFEST_FILE, Manifest},
     splits::Split,
@@ -16,7 +15,8 @@ use phase_event::{Recording, SimulationRecord};
 use phase_evidence::Track;
 use phase_model::{AgentId, Attitude, State};
 use phase_questions::{
-    Alternative, Facts, Inside, SimulatedFutures, believed_rooms, idle_of, is_about_beliefs,
+    Alternative, Facts, Inside, SimulatedFutures, asks_without, believed_rooms, foreseen, idle_of,
+    is_about_beliefs,
 };
 use phase_sim::{Simulation, SimulationSettings};
 use std::{
@@ -132,8 +132,10 @@ fn inside(
     scene.agents[idle].attitude = Attitude::Neutral;
     scene.agents[idle].goal = scene.agents[idle.other()].goal;
     let same = known.iter().find(|(agent, other, _)| *agent == idle && *other == scene);
-    let without = if let Some((_, _, track)) = same {
-        track.clone()
+    let without = if !asks_without(facts, idle) {
+        None
+    } else if let Some((_, _, track)) = same {
+        Some(track.clone())
     } else {
         let settings = SimulationSettings { idle: Some(idle), ..*settings };
         let go_on = &mut |_: &phase_event::Step| interrupt::goes_on();
@@ -147,21 +149,21 @@ fn inside(
         };
         let track = Track::of_event(&event);
         known.push((idle, scene, track.clone()));
-        track
+        Some(track)
     };
-    let Some(futures) = futures(facts, simulation, settings)? else { return Ok(None) };
-    Ok(Some(Inside {
-        states: Inside::states_of(event),
-        beliefs,
-        without: Some(Alternative { idle, track: without }),
-        futures,
-    }))
+    let without = without.map(|track| Alternative { idle, track });
+    let states = Inside::states_of(event);
+    let Some(futures) = futures(facts, &states, simulation, settings)? else { return Ok(None) };
+    Ok(Some(Inside { states, beliefs, without, futures }))
 }
 
-/// Futures from the middle of an event: both minds have perceived what happened, with other random numbers.
-/// The outer `None` means interrupted; the inner one that the event is too short.
+/// Futures from the middle of an event, of which both minds have perceived the first half: four, with other
+/// random numbers each. The outer `None` means interrupted; the inner one that nothing can be asked about
+/// them: the event is too short, or nothing leaves its room in it and in all of them. (What stays where it is
+/// would be asked about, too, and needs something that leaves beside it.)
 fn futures(
     facts: &Facts,
+    states: &[State],
     simulation: &SimulationRecord,
     settings: &SimulationSettings,
 ) -> Result<Option<Option<SimulatedFutures>>, RunError> {
@@ -170,31 +172,38 @@ fn futures(
     if cut == 0 || cut + FUTURE_STEPS > event.steps.len() {
         return Ok(Some(None));
     }
+    let mut futures = SimulatedFutures { step: cut, steps: FUTURE_STEPS, ends: Vec::with_capacity(FUTURES) };
+    let something_leaves = |futures: &SimulatedFutures| {
+        foreseen(facts, states, futures).iter().any(|(_, now, room)| now != room)
+    };
+    if !something_leaves(&futures) {
+        return Ok(Some(None));
+    }
     let fail = |source| RunError::Simulation { id: facts.id.clone(), source };
-    let minds = settings.minds.with_simulations(FUTURE_SIMULATIONS);
     let never = usize::MAX;
     let settings = SimulationSettings {
         max_steps: cut + FUTURE_STEPS,
         rest_steps: never,
         still_steps: never,
-        minds,
+        minds: settings.minds.with_simulations(FUTURE_SIMULATIONS),
         ..*settings
     };
-    let mut ends: Vec<State> = Vec::with_capacity(FUTURES);
-    for k in 0..FUTURES as u64 {
-        let seed = crate::engine::event_seed(event.seed, 1 + k as usize);
-        let mut simulation = Simulation::new(&event.scene, seed, &settings).map_err(fail)?;
-        for step in 0..cut + FUTURE_STEPS {
-            if let ControlFlow::Break(()) = interrupt::goes_on() {
+    let mut past = Simulation::new(&event.scene, event.seed, &settings).map_err(fail)?;
+    for step in &event.steps[..cut] {
+        past.step(step.actions.map(Some)).map_err(fail)?;
+    }
+    for k in 0..FUTURES {
+        let mut future = past.branch(engine::event_seed(event.seed, 1 + k));
+        while !future.is_over() {
+            if interrupt::requested() {
                 return Ok(None);
             }
-            let given = match event.steps.get(step).filter(|_| step < cut) {
-                Some(step) => step.actions.map(Some),
-                None => [None; 2],
-            };
-            simulation.step(given).map_err(fail)?;
+            future.step([None; 2]).map_err(fail)?;
         }
-        ends.push(*simulation.state());
+        futures.ends.push(*future.state());
+        if !something_leaves(&futures) {
+            return Ok(Some(None));
+        }
     }
-    Ok(Some(Some(SimulatedFutures { step: cut, steps: FUTURE_STEPS, ends })))
+    Ok(Some(Some(futures)))
 }

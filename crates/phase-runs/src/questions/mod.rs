@@ -310,7 +310,7 @@ impl QuestionRun {
         Ok(all)
     }
 
-    /// The judgements of a method about everything that questions show.
+    /// The judgements of a method about every event that a question shows which a judgement can answer.
     fn watcher<'a>(
         &self,
         method: &str,
@@ -321,10 +321,13 @@ impl QuestionRun {
         let recogniser = recogniser(method, None, &MindChoice::default())?;
         let all_frames_only = method != self.certify;
         let shown = answers::all_shown(facts, all);
-        let progress =
-            listener.progress_over(&format!("asking {method} about {} videos", shown.len()), shown.len());
+        let count = shown.iter().filter(|it| it.2).count();
+        let progress = listener.progress_over(&format!("asking {method} about {count} videos"), count);
         let judged = make_all(self.threads, shown.len(), |index| {
-            let (facts, until) = shown[index];
+            let (facts, until, is_judged) = shown[index];
+            if !is_judged {
+                return Ok(Some(Vec::new()));
+            }
             let seed = event_seed(self.seed, &facts.id);
             let judged =
                 answers::judge(recogniser.as_ref(), facts, until, all_frames_only, seed, &mut goes_on);
