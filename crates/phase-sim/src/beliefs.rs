@@ -1,6 +1,6 @@
 //! Beliefs of an agent in a recorded event, recomputed.
 
-use crate::simulation::belief_stream;
+use crate::minds::belief_stream;
 use phase_event::Event;
 use phase_minds::{
     BeliefState, BeliefView, Contest, MindParameters, Supposition, belief_in, first_observation,

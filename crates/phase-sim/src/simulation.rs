@@ -1,39 +1,19 @@
 //! Algorithm 1 of the paper: both agents observe, update their beliefs, plan and act simultaneously.
 
-use crate::{SimulationSettings, environment::Environment};
-use core::ops::ControlFlow;
-use phase_event::{Event, Step, Thought};
-use phase_minds::{Agent, MindKind, first_observation};
-use phase_model::{
-    AGENT_COUNT, Action, AgentId, Awareness, PhysicsConfig, Scene, SceneError, State, Subgoal,
-    arena::SUBSTEPS,
-    random::{self, Pcg64Mcg, Purpose},
-    setting::RangeError,
+use crate::{
+    SimulationSettings,
+    environment::Environment,
+    error::SimulationError,
+    minds::{Given, Minds},
 };
+use core::ops::ControlFlow;
+use phase_event::{Event, Step};
+use phase_minds::MindKind;
+use phase_model::{AGENT_COUNT, AgentId, Awareness, PhysicsConfig, Scene, State, Subgoal, arena::SUBSTEPS};
 use phase_predicates::threshold::SEEN_MOTION;
-use thiserror::Error;
 
 /// Speed below which a body counts as being at rest (u/s).
 const REST_SPEED: f32 = 0.05;
-
-/// The reason why a scene could not be simulated: the scene or the settings are invalid, or a search failed.
-#[derive(Clone, PartialEq, Debug, Error)]
-pub enum SimulationError {
-    /// The scene is invalid.
-    #[error(transparent)]
-    Scene(#[from] SceneError),
-    /// The published simulator's minds know each other's goals and see with their own eyes.
-    #[error(
-        "field `agents[{0}]`: published minds know the other's goal; leave out `knows`, `level`, `sees` and `waits`"
-    )]
-    Awareness(AgentId),
-    /// A search failed.
-    #[error(transparent)]
-    Search(#[from] phase_pomcp::PomcpError),
-    /// A setting is out of its range.
-    #[error(transparent)]
-    Settings(#[from] RangeError),
-}
 
 /// Simulates a scene from its start to its end (Algorithm 1 of the paper).
 ///
@@ -98,9 +78,6 @@ pub fn simulate_with(
     }
     Ok((simulation.into_event(), true))
 }
-
-/// For each agent the action that it is given; `None` if its mind decides.
-pub type Given = [Option<Action>; AGENT_COUNT];
 
 /// A scene that is simulated step by step.
 ///
@@ -227,8 +204,8 @@ impl Simulation {
         }
     }
 
-    /// A copy with the same past, in which both agents believe the same, and with the random numbers of `seed`
-    /// from here on. Decisions that were made ahead are made again. With the original's random numbers
+    /// A copy with the same past, in which both agents believe the same, and with the random numbers of
+    /// `seed` from here on. Decisions that were made ahead are made again. With the original's random numbers
     /// ([`phase_minds::MindParameters`] of published minds), which no seed changes, beliefs alone part.
     ///
     /// # Examples
@@ -262,9 +239,7 @@ impl Simulation {
     #[must_use]
     pub fn branch(&self, seed: u64) -> Self {
         let mut branch = self.clone();
-        branch.minds.beliefs = AgentId::ALL.map(|agent| belief_stream(seed, agent));
-        branch.minds.searches = AgentId::ALL.map(|agent| search_stream(seed, agent));
-        branch.minds.decided = [None, None];
+        branch.minds.reseed(seed);
         branch
     }
 
@@ -313,121 +288,4 @@ fn is_unmoved(physics: &PhysicsConfig, before: &State, after: &State) -> bool {
 
 fn is_at_rest(physics: &PhysicsConfig, state: &State) -> bool {
     physics.entities().all(|entity| state.body(entity).velocity.length() < REST_SPEED)
-}
-
-/// The generator of an agent's belief. It is a separate stream, so that beliefs can be recomputed from a
-/// recorded event without planning again.
-pub(crate) fn belief_stream(seed: u64, agent: AgentId) -> Pcg64Mcg {
-    random::stream(seed, Purpose::Belief, agent.number().into())
-}
-
-fn search_stream(seed: u64, agent: AgentId) -> Pcg64Mcg {
-    random::stream(seed, Purpose::Search, agent.number().into())
-}
-
-/// Both agents with their random streams.
-#[derive(Clone, Debug)]
-struct Minds {
-    agents: [Option<Agent>; AGENT_COUNT],
-    beliefs: [Pcg64Mcg; AGENT_COUNT],
-    searches: [Pcg64Mcg; AGENT_COUNT],
-    /// Decisions made before the step was due.
-    decided: [Option<(Action, Thought)>; AGENT_COUNT],
-    /// The idle agent, if any.
-    idle: Option<AgentId>,
-    /// Steps that each agent still waits.
-    waits: [u16; AGENT_COUNT],
-    /// The position at which the first agent's decision has left the original's random numbers, until the
-    /// second decides.
-    led_to: Option<u64>,
-}
-
-impl Minds {
-    fn new(
-        scene: &Scene,
-        initial: &State,
-        seed: u64,
-        settings: &SimulationSettings,
-        minds: [bool; AGENT_COUNT],
-    ) -> Result<Self, SimulationError> {
-        let mut beliefs: [Pcg64Mcg; AGENT_COUNT] = AgentId::ALL.map(|agent| belief_stream(seed, agent));
-        let searches = AgentId::ALL.map(|agent| search_stream(seed, agent));
-        let mut mind = |agent: AgentId| {
-            let mut new = || {
-                let first = first_observation(scene, settings.minds.kind(), initial, agent);
-                Agent::new(scene, &settings.minds, &first, Some(initial), &mut beliefs[agent])
-            };
-            minds[agent].then(&mut new).transpose()
-        };
-        let agents = [mind(AgentId::ZERO)?, mind(AgentId::ONE)?];
-        let waits = scene.agents.map(|agent| agent.awareness.waits);
-        Ok(Self {
-            agents,
-            beliefs,
-            searches,
-            decided: [None, None],
-            idle: settings.idle,
-            waits,
-            led_to: None,
-        })
-    }
-
-    fn decide(
-        &mut self,
-        given: Given,
-    ) -> Result<([Action; AGENT_COUNT], [Thought; AGENT_COUNT]), SimulationError> {
-        let (first, why_first) = self.decide_for(AgentId::ZERO, given[AgentId::ZERO])?;
-        let (second, why_second) = self.decide_for(AgentId::ONE, given[AgentId::ONE])?;
-        Ok(([first, second], [why_first, why_second]))
-    }
-
-    fn decide_for(
-        &mut self,
-        agent: AgentId,
-        given: Option<Action>,
-    ) -> Result<(Action, Thought), SimulationError> {
-        let decided = self.decided[agent].take();
-        let waits = self.waits[agent] > 0 && decided.is_none();
-        self.waits[agent] = self.waits[agent].saturating_sub(u16::from(waits));
-        if let Some(action) = given {
-            return Ok((action, Thought::IDLE));
-        }
-        if let Some(decided) = decided {
-            return Ok(decided);
-        }
-        match &mut self.agents[agent] {
-            Some(mind) if self.idle != Some(agent) && !waits => {
-                // The original's random numbers go on from the first agent's search to the second's.
-                if let (AgentId::ONE, Some(position)) = (agent, self.led_to.take()) {
-                    mind.begin_at(position);
-                }
-                let decided = mind.decide(&mut self.searches[agent])?;
-                if agent == AgentId::ZERO {
-                    self.led_to = Some(mind.stream_position());
-                }
-                Ok(decided)
-            }
-            _ => Ok((Action::Stop, Thought::IDLE)),
-        }
-    }
-
-    fn decide_ahead(&mut self, agent: AgentId) -> Result<(), SimulationError> {
-        if self.decided[agent].is_none() {
-            self.decided[agent] = Some(self.decide_for(agent, None)?);
-        }
-        Ok(())
-    }
-
-    fn perceive(&mut self, substeps: &[State; SUBSTEPS], actions: [Action; AGENT_COUNT]) {
-        let state = &substeps[SUBSTEPS - 1];
-        for (agent, mind) in AgentId::ALL.into_iter().zip(&mut self.agents) {
-            if self.idle == Some(agent) {
-                continue;
-            }
-            if let Some(mind) = mind {
-                let observation = mind.observe(state);
-                mind.perceive(actions[agent], &observation, substeps, &mut self.beliefs[agent]);
-            }
-        }
-    }
 }
