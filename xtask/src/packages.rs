@@ -11,6 +11,7 @@ pub const PACKAGES: [(&str, &[(&str, &str)]); 4] = [
         "phase-lab",
         &[
             ("check-behaviour", "Measure how reliably agents show the intended behaviour"),
+            ("check-forecasts", "Divide the error of forecasts into inference, minds and chance"),
             ("check-minds", "Compare minds with the agents of recordings or events whose labels are known"),
             ("check-physics", "Compare an engine of the physics with recorded motion"),
             (

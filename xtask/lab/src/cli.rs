@@ -2,6 +2,7 @@
 
 use crate::{
     check_behaviour::{self, options::CheckBehaviour},
+    check_forecasts,
     check_minds::{self, options::CheckMinds},
     check_physics::{self, options::CheckPhysics},
     check_search,
@@ -32,6 +33,8 @@ pub enum Command {
     CheckPhysics(CheckPhysics),
     /// Measure how reliably agents show the intended behaviour
     CheckBehaviour(CheckBehaviour),
+    /// Divide the error of forecasts into inference, minds and chance
+    CheckForecasts(FitEvents),
     /// Compare minds with the agents of recordings or events whose labels are known
     CheckMinds(CheckMinds),
     /// Compare the decisions of short searches with those of a long one, by the priors of their root
@@ -64,6 +67,7 @@ impl Interface for Command {
         match self {
             Self::CheckPhysics(arguments) => check_physics::run(arguments, context),
             Self::CheckBehaviour(arguments) => check_behaviour::run(arguments, context),
+            Self::CheckForecasts(arguments) => check_forecasts::run(arguments, context),
             Self::CheckMinds(arguments) => check_minds::run(arguments, context),
             Self::CheckSearch(arguments) => check_search::run(arguments, context),
             Self::CheckTrack(arguments) => check_track::run(arguments, context),

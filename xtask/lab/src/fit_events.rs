@@ -18,7 +18,8 @@ use std::{
     path::{Path, PathBuf},
 };
 
-/// Options of `fit-beliefs`, `fit-forecast`, `fit-inference` and `fit-intents`.
+/// Options of `check-forecasts`, `check-search`, `fit-beliefs`, `fit-forecast`, `fit-inference` and
+/// `fit-intents`.
 #[derive(Args, Debug)]
 pub struct FitEvents {
     /// The events to fit to: a file in the format phase-events/1, or the folder of a dataset or of
@@ -52,6 +53,14 @@ impl FitEvents {
     ) -> Result<(), CliError> {
         let Some(out) = &self.out else { return Ok(()) };
         json_file::check("--out", out, self.events.iter().chain(&self.held_out).chain(others))
+    }
+
+    /// Refuses `--held-out`, for commands that fit nothing.
+    pub(crate) fn check_nothing_held_out(&self) -> Result<(), RunError> {
+        if self.held_out.is_empty() {
+            return Ok(());
+        }
+        Err(RunError::Usage("--held-out: nothing is fitted here; give these events with --events".into()))
     }
 
     /// Writes the fit, if a file was named.

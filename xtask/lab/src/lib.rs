@@ -2,6 +2,7 @@
 //! behaviour, physics and tracks: commands of `cargo xtask`.
 //!
 //! - `check-behaviour` shows how reliably agents do what they are planned to do,
+//! - `check-forecasts` divides the error of forecasts into inference, minds and chance,
 //! - `check-minds` compares minds with recorded agents,
 //! - `check-physics` compares an engine with recorded motion,
 //! - `check-track` compares tracks with the motion in videos that it draws,
@@ -21,6 +22,7 @@
 #![deny(missing_docs)]
 
 pub mod check_behaviour;
+pub mod check_forecasts;
 pub mod check_minds;
 pub mod check_physics;
 pub mod check_search;

@@ -73,6 +73,7 @@ fn ways() -> Vec<Way> {
 /// Any [`LabError`] about the files, or an interruption.
 pub fn run(arguments: &FitEvents, context: &Context) -> Result<(), LabError> {
     arguments.check_out([])?;
+    arguments.check_nothing_held_out()?;
     let events = arguments.read_all(&arguments.events, context)?;
     interrupt::listen();
     let ways = ways();

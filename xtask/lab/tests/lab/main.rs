@@ -1,6 +1,7 @@
 //! The commands of the lab, run as a program.
 
 mod check_behaviour;
+mod check_forecasts;
 mod check_minds;
 mod check_physics;
 mod fit_beliefs;
