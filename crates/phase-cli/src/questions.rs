@@ -1,11 +1,14 @@
 //! `questions` and `score`: a benchmark of questions about events, and the score of answers.
 
-use crate::{context::Context, error::CliError, interrupt, named::named, output::Output, parallel::Jobs};
+use crate::{
+    context::Context, error::CliError, eval::require_networks, interrupt, named::named, output::Output,
+    parallel::Jobs,
+};
 use clap::{Args, builder::PossibleValuesParser, value_parser};
 use phase_dataset::splits::Split;
 use phase_questions::Row;
 use phase_runs::{
-    eval::methods::recognisers,
+    eval::{methods::recognisers, networks::is_network},
     questions::{Asked, QuestionRun, Scored, answerers, score_file},
 };
 use serde_json::json;
@@ -74,6 +77,10 @@ pub struct Questions {
 pub fn questions(arguments: &Questions, context: &Context) -> Result<(), CliError> {
     if !arguments.size.is_multiple_of(2) {
         return Err(CliError::Usage(format!("--size {}: must be even", arguments.size)));
+    }
+    let mut methods = arguments.answers.iter().chain([&arguments.certify]);
+    if methods.any(|method| is_network(method)) {
+        require_networks(context)?;
     }
     interrupt::listen();
     let run = QuestionRun {

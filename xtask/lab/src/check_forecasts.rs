@@ -61,7 +61,7 @@ pub fn run(arguments: &FitEvents, context: &Context) -> Result<(), LabError> {
     })?;
     let found: Vec<EventErrors> = found.into_iter().map(|Found { errors }| errors).collect();
     arguments.write(&found)?;
-    print_result(&table(&found, arguments.seed))?;
+    print_result(table(&found, arguments.seed))?;
     Ok(())
 }
 
