@@ -39,6 +39,10 @@ fn a_program_without_networks_says_how_to_get_them() {
             sentence.contains("`cargo install --path crates/phase-cli --features networks`"),
             "{sentence}"
         );
+        let questions = ["questions", "events.json", "--answers", name, "--out", "out"];
+        assert!(
+            refuse(path, &questions).contains("`cargo install --path crates/phase-cli --features networks`")
+        );
         let train = ["train", name, "--data", "nowhere", "--out", "out"];
         assert!(refuse(path, &train).contains("`cargo install --path crates/phase-cli --features networks`"));
     }
