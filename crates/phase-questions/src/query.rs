@@ -210,13 +210,8 @@ impl Query {
         }
     }
 
-    /// Whether a [`Judgement`](phase_model::Judgement) of goals and relations can answer it.
-    #[must_use]
-    pub const fn is_judged(&self) -> bool {
-        !self.is_physical() && !matches!(self, Self::Ahead { .. })
-    }
-
-    /// Whether it is about what is seen to happen, so that [`Query::seen`] can answer it.
+    /// Whether it is about what is seen to happen, so that [`Query::seen`] can answer it. All others are
+    /// answered from a [`Judgement`](phase_model::Judgement).
     #[must_use]
     pub const fn is_physical(&self) -> bool {
         !matches!(

@@ -40,7 +40,7 @@ pub(super) fn all_shown<'a>(
     let mut shown: BTreeMap<(&str, Option<usize>), bool> = BTreeMap::new();
     for question in all {
         for event in &question.events {
-            *shown.entry((event, question.until)).or_default() |= question.query.is_judged();
+            *shown.entry((event, question.until)).or_default() |= !question.query.is_physical();
         }
     }
     let known = |((event, until), is_judged)| Some((*facts.get(event)?, until, is_judged));
@@ -65,13 +65,23 @@ fn reversed(track: &Track) -> Track {
     reordered(track, &order)
 }
 
-/// Asks a method about an event in every number of frames, or in all alone, and in other orders; `None` if it
-/// was cancelled.
+/// The forms in which a method is shown an event.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum Forms {
+    /// All frames.
+    Video,
+    /// Every number of frames.
+    Budgets,
+    /// Every number of frames, and all in other orders.
+    BudgetsAndOrders,
+}
+
+/// Asks a method about an event; `None` if it was cancelled.
 pub(super) fn judge(
     method: &dyn Recogniser,
     facts: &Facts,
     until: Option<usize>,
-    all_frames_only: bool,
+    forms: Forms,
     seed: u64,
     tick: &mut dyn FnMut() -> ControlFlow<()>,
 ) -> Result<Option<Judged>, RunError> {
@@ -79,12 +89,13 @@ pub(super) fn judge(
     let mut tracks: Vec<Option<Track>> = BUDGETS
         .into_iter()
         .map(|budget| {
-            let wanted = !all_frames_only || budget == FrameBudget::All;
+            let wanted = forms != Forms::Video || budget == FrameBudget::All;
             wanted.then(|| sampled(&track, budget))
         })
         .collect();
-    tracks.push((!all_frames_only).then(|| shuffled(&track, seed)));
-    tracks.push((!all_frames_only).then(|| reversed(&track)));
+    let in_orders = forms == Forms::BudgetsAndOrders;
+    tracks.push(in_orders.then(|| shuffled(&track, seed)));
+    tracks.push(in_orders.then(|| reversed(&track)));
     let mut judged: Judged = Vec::with_capacity(tracks.len());
     for track in tracks {
         let Some(track) = track else {

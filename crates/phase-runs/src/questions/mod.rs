@@ -26,7 +26,7 @@ use crate::{
     source::EventInput,
     words,
 };
-use answers::Watcher;
+use answers::{Forms, Watcher};
 use core::ops::ControlFlow;
 use kept::Kept;
 use phase_dataset::splits::Split;
@@ -319,7 +319,11 @@ impl QuestionRun {
         listener: &dyn Listener,
     ) -> Result<Watcher<'a>, RunError> {
         let recogniser = recogniser(method, None, &MindChoice::default())?;
-        let all_frames_only = method != self.certify;
+        let forms = match method == self.certify {
+            false => Forms::Video,
+            true if self.answers.contains(&self.certify) => Forms::BudgetsAndOrders,
+            true => Forms::Budgets,
+        };
         let shown = answers::all_shown(facts, all);
         let count = shown.iter().filter(|it| it.2).count();
         let progress = listener.progress_over(&format!("asking {method} about {count} videos"), count);
@@ -329,8 +333,7 @@ impl QuestionRun {
                 return Ok(Some(Vec::new()));
             }
             let seed = event_seed(self.seed, &facts.id);
-            let judged =
-                answers::judge(recogniser.as_ref(), facts, until, all_frames_only, seed, &mut goes_on);
+            let judged = answers::judge(recogniser.as_ref(), facts, until, forms, seed, &mut goes_on);
             progress.steps(1);
             judged
         })?;
