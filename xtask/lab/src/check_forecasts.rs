@@ -9,11 +9,12 @@
 use crate::{
     error::LabError,
     fit_events::{FitEvents, KeptFigures},
+    fit_forecast::watched_and_rest,
 };
 use phase_cli::{context::Context, interrupt, output::print_result};
 use phase_eval::{
     Estimate,
-    trajectories::{Errors, PREDICTED_STEPS, WATCHED_STEPS},
+    trajectories::{Errors, WATCHED_STEPS},
 };
 use phase_event::{MethodError, ProgressCallback, Recording};
 use phase_model::{
@@ -93,12 +94,8 @@ fn errors(
     seed: u64,
     tick: ProgressCallback<'_>,
 ) -> Result<Option<Found>, MethodError> {
-    let whole = recording.observed().map_err(MethodError::new)?;
-    let observed = whole.prefix(WATCHED_STEPS);
-    let steps = (whole.steps() - WATCHED_STEPS).min(PREDICTED_STEPS);
-    let rows = || whole.rows().iter().skip(1 + WATCHED_STEPS).take(steps);
-    let path = |entity: usize| rows().map(|row| row[entity].position).collect();
-    let truth: Forecast = whole.entities().map(|entity| path(entity.index())).collect();
+    let (observed, truth) = watched_and_rest(recording)?;
+    let steps = truth.first().map_or(0, Vec::len);
     let prepared = simple.prepare(&observed, seed);
     let inference = simple.infer(&prepared, seed, tick).map_err(MethodError::new)?;
     let Some(inference) = inference else { return Ok(None) };

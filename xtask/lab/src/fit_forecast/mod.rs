@@ -10,7 +10,7 @@ use crate::{
 };
 use phase_cli::{context::Context, interrupt, output::print_result};
 use phase_eval::trajectories::{Errors, PREDICTED_STEPS, WATCHED_STEPS};
-use phase_event::{MethodError, ProgressCallback, Recording};
+use phase_event::{MethodError, ObservedEvent, ProgressCallback, Recording};
 use phase_model::{Forecast, Vec2};
 use phase_runs::error::RunError;
 use phase_simple::{Continuation, ForecastSettings, Futures, Simple, continuations};
@@ -143,9 +143,8 @@ fn simulated(
     seed: u64,
     tick: ProgressCallback<'_>,
 ) -> Result<Option<KnownFutures>, MethodError> {
-    let whole = recording.observed().map_err(MethodError::new)?;
-    let observed = whole.prefix(WATCHED_STEPS);
-    let steps = (whole.steps() - WATCHED_STEPS).min(PREDICTED_STEPS);
+    let (observed, truth) = watched_and_rest(recording)?;
+    let steps = truth.first().map_or(0, Vec::len);
     let prepared = simple.prepare(&observed, seed);
     let inference = simple.infer(&prepared, seed, tick).map_err(MethodError::new)?;
     let Some(inference) = inference else { return Ok(None) };
@@ -159,10 +158,14 @@ fn simulated(
         futures: it.futures.iter().map(places_of).collect(),
         hindcasts: it.hindcast_errors,
     });
-    let rows = || whole.rows().iter().skip(1 + WATCHED_STEPS).take(steps);
-    let path = |entity: usize| rows().map(|row| row[entity].position.to_array()).collect();
-    Ok(Some(KnownFutures {
-        hypotheses: hypotheses.collect(),
-        truth: whole.entities().map(|entity| path(entity.index())).collect(),
-    }))
+    Ok(Some(KnownFutures { hypotheses: hypotheses.collect(), truth: places_of(&truth) }))
+}
+
+/// What is watched of an event, and where its entities are in the steps that are forecast.
+pub(crate) fn watched_and_rest(recording: &Recording) -> Result<(ObservedEvent, Forecast), MethodError> {
+    let whole = recording.observed().map_err(MethodError::new)?;
+    let rows = || whole.rows().iter().skip(1 + WATCHED_STEPS).take(PREDICTED_STEPS);
+    let path = |entity: usize| rows().map(|row| row[entity].position).collect();
+    let rest = whole.entities().map(|entity| path(entity.index())).collect();
+    Ok((whole.prefix(WATCHED_STEPS), rest))
 }
