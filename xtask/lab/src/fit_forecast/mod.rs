@@ -161,7 +161,7 @@ fn simulated(
     Ok(Some(KnownFutures { hypotheses: hypotheses.collect(), truth: places_of(&truth) }))
 }
 
-/// What is watched of an event, and where its entities are in the steps that are forecast.
+/// The part of an event that is watched, and where its entities are in the steps that are forecast.
 pub(crate) fn watched_and_rest(recording: &Recording) -> Result<(ObservedEvent, Forecast), MethodError> {
     let whole = recording.observed().map_err(MethodError::new)?;
     let rows = || whole.rows().iter().skip(1 + WATCHED_STEPS).take(PREDICTED_STEPS);
