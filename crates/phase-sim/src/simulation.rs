@@ -148,7 +148,7 @@ impl Simulation {
 
     /// Simulates one step of 0.25 s, also of an event that is over. An agent to which an action is given
     /// carries that out; its mind perceives all the same and does not decide, and its thought is
-    /// [`Thought::IDLE`].
+    /// [`Thought::IDLE`](phase_event::Thought::IDLE).
     ///
     /// # Errors
     /// [`SimulationError::Search`], if a search fails.
