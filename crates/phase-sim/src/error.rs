@@ -11,7 +11,8 @@ pub enum SimulationError {
     Scene(#[from] SceneError),
     /// The published simulator's minds know each other's goals and see with their own eyes.
     #[error(
-        "field `agents[{0}]`: published minds know the other's goal; leave out `knows`, `level`, `sees` and `waits`"
+        "field `agents[{0}]`: published minds know the other's goal; \
+         leave out `knows`, `level`, `sees` and `waits`"
     )]
     Awareness(AgentId),
     /// A search failed.

@@ -154,7 +154,7 @@ fn mean(errors: impl Iterator<Item = Result<[f64; 2], MethodError>>) -> Result<[
 mod tests {
     use super::table;
 
-    /// What SIMPLE loses is divided without a rest.
+    /// The three parts add up to the error of SIMPLE.
     #[test]
     fn the_parts_add_up() {
         let found = [

@@ -157,10 +157,12 @@ fn inside(
     Ok(Some(Inside { states, beliefs, without, futures }))
 }
 
-/// Futures from the middle of an event, of which both minds have perceived the first half: four, with other
-/// random numbers each. The outer `None` means interrupted; the inner one that nothing can be asked about
-/// them: the event is too short, or nothing leaves its room in it and in all of them. (What stays where it is
-/// would be asked about, too, and needs something that leaves beside it.)
+/// Four futures of an event from its middle, each with other random numbers; both minds have perceived the
+/// first half.
+///
+/// Returns `None` if it was interrupted, and `Some(None)` if no question can follow: the event is too short,
+/// or no entity leaves its room in the event and in all futures. (Questions about entities that stay need
+/// such an entity beside them.)
 fn futures(
     facts: &Facts,
     states: &[State],
