@@ -102,20 +102,17 @@ impl Field {
             let way = self.way(inside);
             return Way { cost: way.cost + from.distance(inside), ..way };
         }
-        let way = self.graph.way(from);
-        if way.cost.is_finite() {
-            return way;
-        }
-        // A point on the axes may see nothing; like `room_of`, take it to lie on the right and below.
         self.graph.way(off_axes(from))
     }
 }
 
 /// A point on an axis of the arena, where a wall or a closed door may hide it from everywhere, is taken to
-/// lie on the right and below.
+/// lie on the right and below, as [`room_of`](phase_model::layout::room_of) does.
+///
+/// Only a point exactly on the axis is moved: one that is near it sees all of its own side.
 fn off_axes(point: Vec2) -> Vec2 {
     let offset = point - arena::CENTRE;
-    let shift = |along: f32, by: f32| if along.abs() < OFF_AXIS { by - along } else { 0.0 };
+    let shift = |along: f32, by: f32| if along == 0.0 { by } else { 0.0 };
     point + Vec2::new(shift(offset.x, OFF_AXIS), shift(offset.y, -OFF_AXIS))
 }
 

@@ -219,6 +219,22 @@ fn a_body_in_a_door_costs_and_is_passed_where_there_is_another_way() {
     assert!(distance > 6.5 && distance < 8.5, "{distance}");
 }
 
+/// Layout 6 has a door below the centre, so that its line can be reached near the corner of the door, from the
+/// left in a straight line and from the right around the corner.
+#[test]
+fn distances_to_and_from_the_line_of_a_door_are_symmetric() {
+    let layout = layout(6);
+    let apart = [0.0, 2e-6, 1e-5, 7e-4, 1e-3, 2e-3];
+    for offset in apart.into_iter().flat_map(|apart| [-apart, apart]) {
+        let a = Vec2::new(16.0 + offset, 2.5);
+        for b in [Vec2::new(6.5, 2.5), Vec2::new(25.0, 2.5), Vec2::new(20.0, 18.0)] {
+            let there = field(layout, b, 0.8, &[]).distance(a);
+            let back = field(layout, a, 0.8, &[]).distance(b);
+            assert!((there - back).abs() <= 1e-2, "{a} to {b}: {there}, back {back}");
+        }
+    }
+}
+
 #[test]
 fn the_cache_does_not_change_answers() {
     let layout = layout(16);
