@@ -2,7 +2,7 @@
 
 use crate::{context::Context, error::CliError, output::Output, parallel::Jobs};
 use clap::Args;
-use phase_runs::{figures::EventFigures, motion::Reports};
+use phase_runs::{figures::EventFigures, motion::Answers};
 use std::path::PathBuf;
 
 /// Options of `stats`.
@@ -14,8 +14,8 @@ pub struct Stats {
     /// Also write the figures, plots (SVG) and the motion in each video (motion.csv) into this folder
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
-    /// Results of `eval goals --method simple` for these events: also show the probability that people
-    /// report the label
+    /// Results of `eval goals` for these events: also show the probability that people report the label (if
+    /// the method is simple), and how many goals are right where motion shows the landmark by 1 u or more
     #[arg(long, value_name = "FILE")]
     pub results: Option<PathBuf>,
     /// Form in which the result is printed.
@@ -31,10 +31,10 @@ pub struct Stats {
 /// # Errors
 /// If the events cannot be used or the plots cannot be written.
 pub fn run(arguments: &Stats, context: &Context) -> Result<(), CliError> {
-    let reports = arguments.results.as_deref().map(Reports::read).transpose()?;
+    let answers = arguments.results.as_deref().map(Answers::read).transpose()?;
     let mut figures = EventFigures::of(&arguments.events, arguments.jobs.given(), context)?;
-    if let Some(reports) = reports {
-        figures = figures.with_reports(reports);
+    if let Some(answers) = answers {
+        figures = figures.with_answers(answers);
     }
     if let Some(out) = &arguments.out {
         figures.write(out).map_err(CliError::Output)?;

@@ -2,7 +2,9 @@
 
 use crate::{Track, contact, outcome, rest};
 use core::ops::Range;
-use phase_model::{AGENT_COUNT, AgentId, Entity, Goal, ObjectId, Scene, Sign, State};
+use phase_model::{
+    AGENT_COUNT, AgentId, Entity, Goal, LandmarkId, ObjectId, Scene, Sign, State, Vec2, arena,
+};
 
 /// An object that both agents are at gets on where it leaves its place by this distance (u).
 const PROGRESS: f32 = 1.0;
@@ -42,6 +44,9 @@ pub struct Clarity {
     pub rest_at_end: usize,
     /// Duration for which each agent [tries](steps_trying) (steps).
     pub trying: [usize; AGENT_COUNT],
+    /// How plainly motion [shows the landmark](landmark_shown) of each agent's goal (u); `None` for a goal
+    /// about another body.
+    pub shown: [Option<f64>; AGENT_COUNT],
 }
 
 impl Clarity {
@@ -74,6 +79,7 @@ impl Clarity {
             changes_late: track.physics.entities().any(moves),
             rest_at_end: rest_at_end(track),
             trying: AgentId::ALL.map(|agent| steps_trying(track, agent, scene.agents[agent].goal)),
+            shown: scene.goals().map(|goal| landmark_shown(track, goal)),
         })
     }
 }
@@ -92,6 +98,28 @@ pub fn steps_trying(track: &Track, agent: AgentId, goal: Goal) -> usize {
         others.iter().any(|&other| contact::near(&track.physics, state, Entity::Agent(agent), other))
     };
     track.states.iter().filter(is_at).count()
+}
+
+/// How plainly motion shows the landmark of a goal (u): by how much more the goal's subject has come closer
+/// to it than to every other landmark, where that is most. At least 0; `None` for a goal about another body.
+///
+/// A goal that is thwarted from the start shows by 0: whichever landmark an agent wants, it is seen to do the
+/// same.
+#[must_use]
+pub fn landmark_shown(track: &Track, goal: Goal) -> Option<f64> {
+    let wanted = goal.landmark()?;
+    let place = |state: &State| state.position(goal.subject());
+    let start = place(track.states.first()?);
+    let gain = |place: Vec2, landmark: LandmarkId| {
+        let to = arena::LANDMARKS[landmark];
+        start.distance(to) - place.distance(to)
+    };
+    let lead = |state: &State| {
+        let others = LandmarkId::ALL.into_iter().filter(|&other| other != wanted);
+        let best = others.map(|other| gain(place(state), other)).fold(f32::NEG_INFINITY, f32::max);
+        gain(place(state), wanted) - best
+    };
+    Some(f64::from(track.states.iter().map(lead).fold(0.0, f32::max)))
 }
 
 /// The steps of each knot, in order of time: the first of them, and the one after the last.

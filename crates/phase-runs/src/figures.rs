@@ -3,7 +3,7 @@
 use crate::{
     error::RunError,
     listener::Listener,
-    motion::{MOTION_FILE, Motions, Reports},
+    motion::{Answers, MOTION_FILE, Motions},
     shortcuts::{self, audited},
     source::EventInput,
 };
@@ -42,7 +42,7 @@ pub struct EventFigures {
     /// The shortcut audit: labels that can be predicted without looking at motion.
     audit: Option<Audit>,
     motions: Motions,
-    reports: Option<Reports>,
+    answers: Option<Answers>,
 }
 
 impl EventFigures {
@@ -55,13 +55,13 @@ impl EventFigures {
         let (statistics, selection) = statistics(path, listener)?;
         let motions = Motions::of(path, threads, listener)?;
         let audit = audited(path, threads, listener)?;
-        Ok(Self { statistics, selection, audit, motions, reports: None })
+        Ok(Self { statistics, selection, audit, motions, answers: None })
     }
 
-    /// These figures with predicted reports of the events beside their clarity.
+    /// These figures with the answers of a method beside the events' clarity.
     #[must_use]
-    pub fn with_reports(self, reports: Reports) -> Self {
-        Self { reports: Some(reports), ..self }
+    pub fn with_answers(self, answers: Answers) -> Self {
+        Self { answers: Some(answers), ..self }
     }
 
     /// The figures for programs.
@@ -86,7 +86,7 @@ impl EventFigures {
     /// The figures for people.
     #[must_use]
     pub fn report(&self) -> String {
-        let Self { statistics, selection, audit, motions, reports } = self;
+        let Self { statistics, selection, audit, motions, answers } = self;
         let mut text = statistics::table(&statistics.figures());
         text += &list("goal", "agents", statistics.goals.iter().map(|(goal, &count)| (goal.clone(), count)));
         text += &list(
@@ -103,7 +103,7 @@ impl EventFigures {
             text += &format!("\n{}", acceptance::table(selection));
         }
         text += &motions.table();
-        text += &motions.clarity(reports.as_ref());
+        text += &motions.clarity(answers.as_ref());
         text += &shortcuts::section(audit.as_ref(), statistics.events);
         text
     }

@@ -11,7 +11,7 @@ use phase_dataset::manifest::{MANIFEST_FILE, Manifest};
 use phase_eval::{goals::RecognisedEvent, results::GOALS_FORMAT};
 use phase_evidence::{Clarity, Manner, Track, VideoMotion};
 use phase_files::{FileError, Problem, json::bytes};
-use phase_model::{Relation, RelationProbabilities};
+use phase_model::{AGENT_COUNT, AgentId, Relation, RelationProbabilities};
 use phase_statistics::{mean, standard_deviation};
 use serde_json::{Value, json};
 use std::{collections::BTreeMap, iter, path::Path};
@@ -19,51 +19,66 @@ use std::{collections::BTreeMap, iter, path::Path};
 /// File name of the table, which has a row for each event.
 pub(crate) const MOTION_FILE: &str = "motion.csv";
 
-/// A measure: its column, whose end is its unit, and its value.
-type Measure = (&'static str, fn(&Row) -> f64);
+/// A measure: its column, whose end is its unit, and its value; `None` where it has none.
+type Measure = (&'static str, fn(&Row) -> Option<f64>);
 
 /// The measures, in the order of their columns.
 const MEASURES: [Measure; 11] = [
-    ("path_0_u", |it| it.motion.path[0]),
-    ("path_1_u", |it| it.motion.path[1]),
-    ("speed_0_u_per_s", |it| it.motion.speed[0]),
-    ("speed_1_u_per_s", |it| it.motion.speed[1]),
-    ("acceleration_0_u_per_s2", |it| it.motion.acceleration[0]),
-    ("acceleration_1_u_per_s2", |it| it.motion.acceleration[1]),
-    ("distance_u", |it| it.motion.distance),
-    ("least_distance_u", |it| it.motion.least_distance),
-    ("agents_touch_share", |it| it.motion.agents_touch),
-    ("contact_0_share", |it| it.motion.contact[0]),
-    ("contact_1_share", |it| it.motion.contact[1]),
+    ("path_0_u", |it| Some(it.motion.path[0])),
+    ("path_1_u", |it| Some(it.motion.path[1])),
+    ("speed_0_u_per_s", |it| Some(it.motion.speed[0])),
+    ("speed_1_u_per_s", |it| Some(it.motion.speed[1])),
+    ("acceleration_0_u_per_s2", |it| Some(it.motion.acceleration[0])),
+    ("acceleration_1_u_per_s2", |it| Some(it.motion.acceleration[1])),
+    ("distance_u", |it| Some(it.motion.distance)),
+    ("least_distance_u", |it| Some(it.motion.least_distance)),
+    ("agents_touch_share", |it| Some(it.motion.agents_touch)),
+    ("contact_0_share", |it| Some(it.motion.contact[0])),
+    ("contact_1_share", |it| Some(it.motion.contact[1])),
 ];
 
 /// Measures of clarity, in the order of their columns, which follow those of motion.
-const CLARITY: [Measure; 11] = [
-    ("knotted_share", |it| it.clarity.knotted),
-    ("knot_at_end_steps", |it| it.clarity.knot_at_end as f64),
-    ("spinning_share", |it| it.clarity.spinning),
-    ("trembling_share", |it| it.clarity.trembling),
-    ("remaining_0_u", |it| it.clarity.remaining[0]),
-    ("remaining_1_u", |it| it.clarity.remaining[1]),
-    ("at_object_end", |it| it.clarity.at_object.map(|at| f64::from(u8::from(at))).iter().sum()),
-    ("changes_late", |it| f64::from(u8::from(it.clarity.changes_late))),
-    ("rest_at_end_steps", |it| it.clarity.rest_at_end as f64),
-    ("trying_0_steps", |it| it.clarity.trying[0] as f64),
-    ("trying_1_steps", |it| it.clarity.trying[1] as f64),
+const CLARITY: [Measure; 13] = [
+    ("knotted_share", |it| Some(it.clarity.knotted)),
+    ("knot_at_end_steps", |it| Some(it.clarity.knot_at_end as f64)),
+    ("spinning_share", |it| Some(it.clarity.spinning)),
+    ("trembling_share", |it| Some(it.clarity.trembling)),
+    ("remaining_0_u", |it| Some(it.clarity.remaining[0])),
+    ("remaining_1_u", |it| Some(it.clarity.remaining[1])),
+    ("at_object_end", |it| Some(it.clarity.at_object.map(|at| f64::from(u8::from(at))).iter().sum())),
+    ("changes_late", |it| Some(f64::from(u8::from(it.clarity.changes_late)))),
+    ("rest_at_end_steps", |it| Some(it.clarity.rest_at_end as f64)),
+    ("trying_0_steps", |it| Some(it.clarity.trying[0] as f64)),
+    ("trying_1_steps", |it| Some(it.clarity.trying[1] as f64)),
+    ("shown_0_u", |it| it.clarity.shown[0]),
+    ("shown_1_u", |it| it.clarity.shown[1]),
 ];
 
 /// The kind of file that `--results` takes.
 const RESULTS: &str = "set of results of eval goals";
 
-/// The reports of people that a method predicts, by event.
-#[derive(Clone, Debug)]
-pub struct Reports(BTreeMap<String, RelationProbabilities>);
+/// The least distance by which the subject of a goal comes closer to its landmark than to each other one for
+/// the landmark to count as [shown](Clarity::shown) (u).
+const SHOWN: f64 = 1.0;
 
-impl Reports {
-    /// Reads the results of `eval goals` by a method that predicts reports.
+/// The answers of a method to events, by their names.
+#[derive(Clone, Debug)]
+pub struct Answers(BTreeMap<String, Judged>);
+
+/// An answer beside its label.
+#[derive(Clone, Copy, Debug)]
+struct Judged {
+    /// The reports of people that the method predicts, if it does.
+    reported: Option<RelationProbabilities>,
+    /// Whether the most likely goal of each agent is the right one.
+    right: [bool; AGENT_COUNT],
+}
+
+impl Answers {
+    /// Reads the results of `eval goals`.
     ///
     /// # Errors
-    /// A file that cannot be read, that has other results, or no predicted reports.
+    /// A file that cannot be read, or that has other results.
     pub fn read(file: &Path) -> Result<Self, RunError> {
         let fail = |problem: Problem| RunError::File(FileError { file: file.to_owned(), problem });
         let mut value = phase_model::json::parse(&bytes(file)?).map_err(|error| fail(error.into()))?;
@@ -74,13 +89,33 @@ impl Reports {
         let events = value.get_mut("events").map(Value::take).unwrap_or_default();
         let events: Vec<RecognisedEvent> = serde_json::from_value(events)
             .map_err(|source| fail(Problem::Incomplete { what: RESULTS, source }))?;
-        let reported = |event: RecognisedEvent| Some((event.id, event.answer.reported?));
-        let reports: BTreeMap<_, _> = events.into_iter().filter_map(reported).collect();
-        if reports.is_empty() {
-            let rule = "none of its events has predicted reports; its method must be simple";
-            return Err(RunError::Usage(format!("--results {}: {rule}", file.display())));
-        }
-        Ok(Self(reports))
+        let judged = |event: RecognisedEvent| {
+            let right = AgentId::ALL.map(|it| event.answer.place(it, event.label.goals[it]) == Some(0));
+            (event.id, Judged { reported: event.answer.reported, right })
+        };
+        Ok(Self(events.into_iter().map(judged).collect()))
+    }
+
+    /// The cells of some events: the mean probability that people report the label, how often that is the
+    /// likeliest report, and how many goals about landmarks are right where motion shows the landmark, and
+    /// where it does not.
+    fn cells(&self, rows: &[&Row]) -> String {
+        let told: Vec<_> = rows.iter().filter_map(|row| Some((*row, *self.0.get(&row.id)?))).collect();
+        let reports: Vec<_> =
+            told.iter().filter_map(|(row, it)| Some((it.reported?, row.relation))).collect();
+        let label: Vec<f64> = reports.iter().map(|(reported, label)| reported.of(*label)).collect();
+        let likeliest = reports.iter().filter(|(reported, label)| reported.most_likely() == *label).count();
+        let mean = mean(&label).map_or_else(|| "–".into(), |mean| format!("{mean:.2}"));
+        let goals = |is_shown: bool| {
+            let agents =
+                told.iter().flat_map(|(row, it)| AgentId::ALL.map(|k| (row.clarity.shown[k], it.right[k])));
+            let these: Vec<bool> = agents
+                .filter_map(|(shown, right)| Some((shown? >= SHOWN, right)))
+                .filter_map(|(shown, right)| (shown == is_shown).then_some(right))
+                .collect();
+            format!("{} of {}", these.iter().filter(|right| **right).count(), these.len())
+        };
+        format!(" {mean} | {likeliest} of {} | {} | {} |", reports.len(), goals(true), goals(false))
     }
 }
 
@@ -158,8 +193,9 @@ impl Motions {
         let columns = columns.join(",");
         let mut text = format!("id,set,condition,duration_s,{columns}\n");
         for row in &self.0 {
+            let number = |value: Option<f64>| value.map_or_else(String::new, |value| format!("{value:.4}"));
             let values: Vec<String> =
-                MEASURES.iter().chain(&CLARITY).map(|(_, of)| format!("{:.4}", of(row))).collect();
+                MEASURES.iter().chain(&CLARITY).map(|(_, of)| number(of(row))).collect();
             let values = values.join(",");
             let Row { id, set, condition, motion, .. } = row;
             text += &format!("{id},{set},{condition},{:.2},{values}\n", motion.seconds);
@@ -182,7 +218,7 @@ impl Motions {
         let mut text = format!("\n| motion: mean ± sd |{head}\n|---|{}\n", "---|".repeat(groups.len()));
         for (name, of) in MEASURES {
             let cell = |rows: &Vec<&Row>| {
-                let values: Vec<f64> = rows.iter().map(|row| of(row)).collect();
+                let values: Vec<f64> = rows.iter().filter_map(|row| of(row)).collect();
                 let sd = standard_deviation(&values).map_or_else(String::new, |sd| format!(" ± {sd:.2}"));
                 format!(" {:.2}{sd} |", mean(&values).unwrap_or_default())
             };
@@ -211,27 +247,25 @@ impl Motions {
         groups
     }
 
-    /// The mean of each measure of clarity by kind, variant and manner, as Markdown; with reports, also the
-    /// mean probability that people report the label, and how often it is the likeliest report.
-    pub(crate) fn clarity(&self, reports: Option<&Reports>) -> String {
+    /// The mean of each measure of clarity by kind, variant and manner, as Markdown; with the answers of a
+    /// method, also what they say of reports and goals.
+    pub(crate) fn clarity(&self, answers: Option<&Answers>) -> String {
         let names: String = CLARITY.iter().map(|(name, _)| format!(" {name} |")).collect();
-        let head = if reports.is_some() { " label reported | likeliest |" } else { "" };
-        let columns = CLARITY.len() + 1 + if reports.is_some() { 2 } else { 0 };
+        let told = [" label reported |", " likeliest |", " goals right: shown |", " not shown |"];
+        let told = if answers.is_some() { &told[..] } else { &[] };
+        let head = told.concat();
+        let columns = CLARITY.len() + 1 + told.len();
         let mut text =
             format!("\n| clarity: mean | events |{names}{head}\n|---|{}\n", "---|".repeat(columns));
         for (group, rows) in self.by_group() {
             text += &format!("| {group} | {} |", rows.len());
             for (_, of) in CLARITY {
-                let values: Vec<f64> = rows.iter().map(|row| of(row)).collect();
-                text += &format!(" {:.2} |", mean(&values).unwrap_or_default());
+                let values: Vec<f64> = rows.iter().filter_map(|row| of(row)).collect();
+                let mean = mean(&values).map_or_else(|| "–".into(), |mean| format!("{mean:.2}"));
+                text += &format!(" {mean} |");
             }
-            if let Some(reports) = reports {
-                let told: Vec<_> =
-                    rows.iter().filter_map(|row| Some((reports.0.get(&row.id)?, row.relation))).collect();
-                let label: Vec<f64> = told.iter().map(|(reported, label)| reported.of(*label)).collect();
-                let right = told.iter().filter(|(reported, label)| reported.most_likely() == *label).count();
-                let mean = mean(&label).map_or_else(|| "–".into(), |mean| format!("{mean:.2}"));
-                text += &format!(" {mean} | {right} of {} |", told.len());
+            if let Some(answers) = answers {
+                text += &answers.cells(&rows);
             }
             text += "\n";
         }
@@ -243,7 +277,7 @@ impl Motions {
 fn value(groups: BTreeMap<&str, Vec<&Row>>, measures: &[Measure]) -> Value {
     let measured = |rows: &[&Row]| -> Value {
         let measure = |&(name, of): &Measure| {
-            let values: Vec<f64> = rows.iter().map(|row| of(row)).collect();
+            let values: Vec<f64> = rows.iter().filter_map(|row| of(row)).collect();
             (name.to_owned(), json!({ "mean": mean(&values), "sd": standard_deviation(&values) }))
         };
         measures.iter().map(measure).collect::<serde_json::Map<_, _>>().into()

@@ -6,7 +6,7 @@ use crate::{
 };
 use phase_evidence::{
     Clarity,
-    clarity::{Duration, Standstill, knots, standstills, steps_trying},
+    clarity::{Duration, Standstill, knots, landmark_shown, standstills, steps_trying},
     selection::{Limit, Quantity},
 };
 use phase_model::{AgentId, Attitude, EventKind, Goal};
@@ -73,6 +73,32 @@ fn trying_is_being_at_what_is_wanted_or_at_the_other() {
     let Goal::ObjectOnLandmark { landmark, sign, .. } = THING else { panic!("a goal about an object") };
     let about_another = Goal::ObjectOnLandmark { object: other, landmark, sign };
     assert_eq!(steps_trying(&track, AgentId::ZERO, about_another), 0);
+}
+
+#[test]
+fn a_landmark_is_shown_by_coming_closer_to_it_than_to_the_others() {
+    // Along the line between the two upper landmarks, (8.5, 19.5) and (23.5, 19.5), and back again.
+    let along = |x: f32| Move {
+        agents: [(12.0, 6.0, 0.0), (20.0, 6.0, 0.0)],
+        objects: vec![(x, 19.5)],
+        held: [None; 2],
+    };
+    let track = track([10.0, 12.0, 15.0, 11.0].map(along));
+    let shown = |landmark: usize| {
+        let goal = Goal::ObjectOnLandmark {
+            object: phase_model::ObjectId::ZERO,
+            landmark: phase_model::LandmarkId::ALL[landmark],
+            sign: phase_model::Sign::Positive,
+        };
+        landmark_shown(&track, goal).expect("a landmark")
+    };
+    // At x = 15 it is 5 u closer to the right, where the lower one there is closer by 20.18 - 17.24 = 2.94.
+    let lower = 13.5_f32.hypot(15.0) - 8.5_f32.hypot(15.0);
+    assert!((shown(1) - f64::from(5.0 - lower)).abs() < 1e-4, "{}", shown(1));
+    // It never comes closer to the left ones than to the right ones.
+    assert_eq!((shown(0), shown(3)), (0.0, 0.0));
+    let chase = Goal::Touch { agent: AgentId::ZERO, other: AgentId::ONE, sign: phase_model::Sign::Positive };
+    assert_eq!(landmark_shown(&track, chase), None);
 }
 
 #[test]
