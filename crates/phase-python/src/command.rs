@@ -2,7 +2,7 @@
 
 use crate::error::{raise, raise_with_code};
 use phase_cli::{PHASE, cli::Command, console::without_results, interrupt::leave_to_host, program};
-use phase_runs::{interrupt, leaderboard::Submission, listener::Silent};
+use phase_runs::{interrupt, leaderboard::{Sealed, Submission}, listener::Silent};
 use pyo3::prelude::*;
 use std::{ffi::OsString, path::PathBuf, thread, time::Duration};
 
@@ -43,6 +43,7 @@ pub(crate) fn run(py: Python<'_>, arguments: Vec<OsString>, silent: bool) -> PyR
 /// Checks and scores a file of predictions, and writes the files of a pull request for the leaderboard; its
 /// scores and files as JSON. `PhaseError` if anything is invalid or cannot be written.
 #[pyfunction]
+#[expect(clippy::too_many_arguments, reason = "Python passes them one by one")]
 pub(crate) fn submit(
     py: Python<'_>,
     predictions: PathBuf,
@@ -51,8 +52,11 @@ pub(crate) fn submit(
     by: String,
     source: String,
     out: PathBuf,
+    sealed: Option<PathBuf>,
+    questions: Option<PathBuf>,
 ) -> PyResult<String> {
-    let submission = Submission { predictions, events, sealed: None, method: Some(method), by, source, out };
+    let sealed = sealed.map(|published| Sealed { published, questions });
+    let submission = Submission { predictions, events, sealed, method: Some(method), by, source, out };
     let pool = rayon::ThreadPoolBuilder::new().build().map_err(raise)?;
     let submitted = py.detach(|| pool.install(|| submission.submit(&Silent))).map_err(raise)?;
     serde_json::to_string(&submitted).map_err(raise)

@@ -114,3 +114,23 @@ def test_submissions_that_are_refused(dataset, event, tmp_path):
         with pytest.raises(phase.PhaseError, match=rule):
             phase.submit(given, where, **({"name": "mine", "out": out} | WHO | change))
         assert not out.exists()
+
+
+def test_answers_to_a_sealed_dataset(tmp_path):
+    secret, public = tmp_path / "secret", tmp_path / "public"
+    small = ["--simulations", "10", "--particles", "4", "--max-steps", "8", "--size", "64"]
+    phase.generate("demo", 6, secret, seed=11259375999999999999, options=small)
+    phase.run("seal", secret, "--out", public)
+    answers = {seen.id: phase.infer(seen, method="cue") for seen in phase.load_observed(public / "events.json")}
+    with pytest.raises(phase.PhaseError, match="sealed must be given, too"):
+        phase.submit(answers, secret, name="mine", out=tmp_path / "out", questions=tmp_path, **WHO)
+    other = tmp_path / "other"
+    phase.generate("demo", 6, other, seed=11259375999999999998, options=small)
+    with pytest.raises(phase.PhaseError, match="the manifest of .*other is not what was sealed"):
+        phase.submit(answers, other, name="mine", out=tmp_path / "out", sealed=public, **WHO)
+    assert not (tmp_path / "out").exists()
+    done = phase.submit(answers, secret, name="mine", out=tmp_path / "out", sealed=public, **WHO)
+    (score,) = done["scores"]
+    seal = hashlib.sha256((public / "seal.json").read_bytes()).hexdigest()
+    assert (score["set"], score["sealed"]) == (f"sealed-{seal[:12]}", {"seal": seal, "events": 6})
+    assert score["top1"]["value"] == phase.evaluate("cue", secret)["goal"]["top1"]

@@ -186,7 +186,7 @@ def evaluate(
         return results
 
 
-def submit(predictions, events, *, name, by, source, out="out/submission"):
+def submit(predictions, events, *, name, by, source, out="out/submission", sealed=None, questions=None):
     """Checks and scores answers for the leaderboard, and writes the files of a pull request (docs/how-to/method.md).
 
     >>> answers = {event.id: infer(event) for event in load_events("out/phase-500-seed1")}      # doctest: +SKIP
@@ -200,16 +200,21 @@ def submit(predictions, events, *, name, by, source, out="out/submission"):
         by: the authors.
         source: the address of the code, or of a description.
         out: a checkout of PHASE, or another folder, in which the files are made. Those of an earlier submission in it are kept.
+        sealed: the folder that ``phase seal`` published, if the answers are to its events; ``events`` is then the folder that was sealed.
+        questions: the folder of the questions, if they were sealed, too.
 
     Returns:
         a dict: ``scores``, one for each task, as in ``phase-leaderboard/1``; ``files``, the paths to be committed; ``same_events``, whether
         the events are, byte for byte, those that the other scores of the leaderboard are of.
 
     Raises:
-        PhaseError: if the events are none of the leaderboard's (it says which these are), an event has no answer or an invalid one, or a
-            name is invalid. Nothing is written then.
+        PhaseError: if the events are none of the leaderboard's (it says which these are), they are not what was sealed, an event has no
+            answer or an invalid one, or a name is invalid. Nothing is written then.
     """
+    if questions is not None and sealed is None:
+        raise PhaseError("questions are of a sealed dataset: sealed must be given, too")
     events, out = path_of(events), path_of(out)
+    sealed, questions = (given if given is None else path_of(given) for given in (sealed, questions))
     name, by, source = text("name", name), text("by", by), text("source", source)
     with tempfile.TemporaryDirectory() as folder, _pythons_words((), folder):
         file = Path(folder) / "predictions.json"
@@ -217,7 +222,7 @@ def submit(predictions, events, *, name, by, source, out="out/submission"):
             file = path_of(predictions)
         else:
             _native.write_text(os.fspath(file), _document(predictions, name, "predictions"))
-        return json.loads(_native.submit(os.fspath(file), events, name, by, source, out))
+        return json.loads(_native.submit(os.fspath(file), events, name, by, source, out, sealed, questions))
 
 
 def _others(compare):
