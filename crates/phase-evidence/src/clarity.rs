@@ -44,8 +44,8 @@ pub struct Clarity {
     pub rest_at_end: usize,
     /// Duration for which each agent [tries](steps_trying) (steps).
     pub trying: [usize; AGENT_COUNT],
-    /// How plainly motion [shows the landmark](landmark_shown) of each agent's goal (u); `None` for a goal
-    /// about another body.
+    /// The lead by which motion [shows the landmark](landmark_shown) of each agent's goal (u); `None` for a
+    /// goal about another body.
     pub shown: [Option<f64>; AGENT_COUNT],
 }
 
@@ -100,8 +100,9 @@ pub fn steps_trying(track: &Track, agent: AgentId, goal: Goal) -> usize {
     track.states.iter().filter(is_at).count()
 }
 
-/// How plainly motion shows the landmark of a goal (u): by how much more the goal's subject has come closer
-/// to it than to every other landmark, where that is most. At least 0; `None` for a goal about another body.
+/// By how much more the subject of a goal has come closer to the goal's landmark than to every other one,
+/// where that is most (u): so plainly motion shows the landmark. At least 0; `None` for a goal about another
+/// body.
 ///
 /// A goal that is thwarted from the start shows by 0: whichever landmark an agent wants, it is seen to do the
 /// same.

@@ -219,8 +219,8 @@ fn a_body_in_a_door_costs_and_is_passed_where_there_is_another_way() {
     assert!(distance > 6.5 && distance < 8.5, "{distance}");
 }
 
-/// Layout 6 has a door below the centre, so that its line can be reached near the corner of the door, from the
-/// left in a straight line and from the right around the corner.
+/// Layout 6 has a door below the centre. Its line can be reached near the corner of the door, from the left
+/// in a straight line and from the right around the corner.
 #[test]
 fn distances_to_and_from_the_line_of_a_door_are_symmetric() {
     let layout = layout(6);

@@ -2,7 +2,11 @@
 
 use crate::error::{raise, raise_with_code};
 use phase_cli::{PHASE, cli::Command, console::without_results, interrupt::leave_to_host, program};
-use phase_runs::{interrupt, leaderboard::{Sealed, Submission}, listener::Silent};
+use phase_runs::{
+    interrupt,
+    leaderboard::{Sealed, Submission},
+    listener::Silent,
+};
 use pyo3::prelude::*;
 use std::{ffi::OsString, path::PathBuf, thread, time::Duration};
 
