@@ -121,7 +121,8 @@ def test_answers_to_a_sealed_dataset(tmp_path):
     small = ["--simulations", "10", "--particles", "4", "--max-steps", "8", "--size", "64"]
     phase.generate("demo", 6, secret, seed=11259375999999999999, options=small)
     phase.run("seal", secret, "--out", public)
-    answers = {seen.id: phase.infer(seen, method="cue") for seen in phase.load_observed(public / "events.json")}
+    published = phase.load_observed(public / "events.json")
+    answers = {seen.id: phase.infer(seen, method="cue") for seen in published}
     with pytest.raises(phase.PhaseError, match="sealed must be given, too"):
         phase.submit(answers, secret, name="mine", out=tmp_path / "out", questions=tmp_path, **WHO)
     other = tmp_path / "other"

@@ -200,8 +200,8 @@ def submit(predictions, events, *, name, by, source, out="out/submission", seale
         by: the authors.
         source: the address of the code, or of a description.
         out: a checkout of PHASE, or another folder, in which the files are made. Those of an earlier submission in it are kept.
-        sealed: the folder that ``phase seal`` published, if the answers are to its events; ``events`` is then the
-            folder that was sealed.
+        sealed: the folder that ``phase seal`` published, if the answers are to its events; ``events``
+            is then the folder that was sealed.
         questions: the folder of the questions, if they were sealed, too.
 
     Returns:
@@ -209,8 +209,9 @@ def submit(predictions, events, *, name, by, source, out="out/submission", seale
         the events are, byte for byte, those that the other scores of the leaderboard are of.
 
     Raises:
-        PhaseError: if the events are none of the leaderboard's (it says which these are), they are not what was
-            sealed, an event has no answer or an invalid one, or a name is invalid. Nothing is written then.
+        PhaseError: if the events are none of the leaderboard's (it says which these are), they are
+            not what was sealed, an event has no answer or an invalid one, or a name is invalid. Nothing is
+            written then.
     """
     if questions is not None and sealed is None:
         raise PhaseError("questions are of a sealed dataset: sealed must be given, too")
