@@ -1,7 +1,7 @@
 //! Requirements of each kind of event where events end at a sampled step, before or after the outcome.
 //!
-//! Goals need not be reached: an agent is seen to pursue its goal and to come closer to it. Where the variant
-//! is about a manner of helping or hindering, that manner is seen.
+//! Goals need not be reached: an agent is seen to pursue its goal and to come closer to it, and motion shows
+//! which landmark it wants. Where the variant is about a manner of helping or hindering, that manner is seen.
 
 use super::{
     CausalEffect, Counterfactual, RejectionReason,
@@ -34,6 +34,9 @@ pub(super) const MIN_ATTEMPT: usize = 8;
 /// Least distance by which each of two competitors gets the object its way (u). In each of six recordings of
 /// 25 s it is 14 u or more.
 pub(super) const MIN_FAVOUR: f32 = 3.0;
+/// Least lead by which motion [shows the landmark](clarity::landmark_shown) of a goal (u). In each of 46
+/// recordings with such goals it is 4.4 u or more.
+pub(super) const MIN_SHOWN: f32 = 3.0;
 /// Longest time for which a hinderer may, in all, carry an object to where the other wants it (steps).
 const MAX_SERVICE: usize = 6;
 /// Approach in a step that is seen as one (u).
@@ -52,7 +55,7 @@ pub(super) fn judge(
     untied(scene, track)?;
     let counterfactual = match scene.kind {
         EventKind::Helping => Some(helping(scene, track)?),
-        EventKind::Hindering => Some(hindering(scene, track)?),
+        EventKind::Hindering => Some(hindering(scene, track, manner)?),
         EventKind::Chasing => Some(chasing(scene, track)?),
         EventKind::Competing => match seeker(scene) {
             Some(seeker) => {
@@ -70,8 +73,8 @@ pub(super) fn judge(
             None
         }
     };
-    let shown = manner.is_none_or(|manner| manner.is_shown(scene, track));
-    require(shown, RejectionReason::OtherManner)?;
+    let seen = manner.is_none_or(|manner| manner.is_shown(scene, track));
+    require(seen, RejectionReason::OtherManner)?;
     Ok(counterfactual.map(|it| Counterfactual { cut: true, ..it }))
 }
 
@@ -111,10 +114,15 @@ fn helping(scene: &Scene, track: &Track) -> Result<Counterfactual, RejectionReas
     pursued(scene, track, helpee)?;
     progressed(scene, track, helpee)?;
     require(tries(track, helpee, scene.agents[helpee].goal), RejectionReason::Aimless)?;
+    shown(scene, track, helpee)?;
     Ok(Counterfactual { idle: helper, judged: helpee, change: CausalEffect::Helped, cut: true })
 }
 
-fn hindering(scene: &Scene, track: &Track) -> Result<Counterfactual, RejectionReason> {
+fn hindering(
+    scene: &Scene,
+    track: &Track,
+    manner: Option<Manner>,
+) -> Result<Counterfactual, RejectionReason> {
     let hinderer = manner::social_agent(scene);
     let victim = hinderer.other();
     match scene.agents[victim].goal {
@@ -126,6 +134,10 @@ fn hindering(scene: &Scene, track: &Track) -> Result<Counterfactual, RejectionRe
             let is_about_a_place = object_of(goal).is_none();
             require(is_about_a_place || tries(track, victim, goal), RejectionReason::NoContact)?;
             require(!serves(track, hinderer, goal), RejectionReason::Misleading)?;
+            // Who hides an object keeps its goal from being seen: that is what such an event shows.
+            if manner != Some(Manner::Hiding) {
+                shown(scene, track, victim)?;
+            }
         }
     }
     Ok(Counterfactual { idle: hinderer, judged: victim, change: CausalEffect::Hindered, cut: true })
@@ -158,6 +170,9 @@ fn competing(scene: &Scene, track: &Track) -> Result<Counterfactual, RejectionRe
     let least = contest::favours(track, scene.goals()).into_iter().fold(f32::INFINITY, f32::min);
     let counterfactual = kinds::competing(scene, track)?;
     require(least >= MIN_FAVOUR, RejectionReason::Uncontested)?;
+    for agent in AgentId::ALL {
+        shown(scene, track, agent)?;
+    }
     Ok(counterfactual)
 }
 
@@ -176,9 +191,9 @@ fn searching(scene: &Scene, track: &Track, seeker: AgentId) -> Result<(), Reject
     pursued(scene, track, seeker.other())?;
     let missed = search::was_moved(track, object, waits) && search::missed(track, seeker, object, waits);
     require(missed, RejectionReason::Unmoved)?;
-    let shown =
+    let looks =
         search::first_look(track, seeker, object, waits).is_some_and(|look| shows(look, scene, seeker));
-    require(shown, RejectionReason::Unsearched)
+    require(looks, RejectionReason::Unsearched)
 }
 
 /// Whether an agent has gone where it believes the object to be when it first sees the object or its old
@@ -223,6 +238,7 @@ fn lasting_chase(track: &Track, chaser: AgentId) -> Result<(), RejectionReason> 
 
 fn collaborating(scene: &Scene, track: &Track) -> Result<(), RejectionReason> {
     progressed(scene, track, AgentId::ZERO)?;
+    shown(scene, track, AgentId::ZERO)?;
     let object = object_of(scene.agents[0].goal).unwrap_or(ObjectId::ZERO);
     kinds::shared(track, object)
 }
@@ -231,6 +247,7 @@ fn independent(scene: &Scene, track: &Track) -> Result<(), RejectionReason> {
     for agent in AgentId::ALL {
         pursued(scene, track, agent)?;
         progressed(scene, track, agent)?;
+        shown(scene, track, agent)?;
         if let Some(object) = object_of(scene.agents[agent.other()].goal) {
             let meddled = holding::carried(track, agent, object).steps;
             require(meddled == 0, RejectionReason::Interference)?;
@@ -251,4 +268,10 @@ fn progressed(scene: &Scene, track: &Track, agent: AgentId) -> Result<(), Reject
     };
     let nearest = track.states.iter().map(|state| goal.distance(state)).fold(f32::INFINITY, f32::min);
     require(start - nearest >= MIN_PROGRESS, RejectionReason::NoProgress)
+}
+
+/// Motion shows the landmark of an agent's goal, if that is about one.
+fn shown(scene: &Scene, track: &Track, agent: AgentId) -> Result<(), RejectionReason> {
+    let lead = clarity::landmark_shown(track, scene.agents[agent].goal);
+    require(lead.is_none_or(|lead| lead >= f64::from(MIN_SHOWN)), RejectionReason::Unshown)
 }

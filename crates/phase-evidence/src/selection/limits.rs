@@ -40,12 +40,21 @@ pub enum Quantity {
     Trying,
     /// Least distance by which a competitor gets the object its way (u).
     Favour,
+    /// Least lead by which motion [shows the landmark](clarity::landmark_shown) of an agent's goal (u).
+    Shown,
 }
 
 impl Quantity {
     /// All quantities.
-    pub const ALL: [Self; 6] =
-        [Self::Still, Self::Standstill, Self::Knotted, Self::KnotAtEnd, Self::Trying, Self::Favour];
+    pub const ALL: [Self; 7] = [
+        Self::Still,
+        Self::Standstill,
+        Self::Knotted,
+        Self::KnotAtEnd,
+        Self::Trying,
+        Self::Favour,
+        Self::Shown,
+    ];
 
     /// Its name, with the unit at the end.
     #[must_use]
@@ -57,6 +66,7 @@ impl Quantity {
             Self::KnotAtEnd => "knot_at_end_steps",
             Self::Trying => "trying_steps",
             Self::Favour => "favour_u",
+            Self::Shown => "shown_u",
         }
     }
 
@@ -70,6 +80,7 @@ impl Quantity {
             Self::KnotAtEnd => Limit::AtMost(0.0),
             Self::Trying => Limit::AtLeast(drawn::MIN_ATTEMPT as f32),
             Self::Favour => Limit::AtLeast(drawn::MIN_FAVOUR),
+            Self::Shown => Limit::AtLeast(drawn::MIN_SHOWN),
         }
     }
 
@@ -103,6 +114,7 @@ impl Quantity {
                 (scene.kind == EventKind::Competing && about_objects)
                     .then(|| favours().fold(f32::INFINITY, f32::min))
             }
+            Self::Shown => clarity.shown.into_iter().flatten().reduce(f64::min).map(|lead| lead as f32),
         }
     }
 }

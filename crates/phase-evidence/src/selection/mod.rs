@@ -60,6 +60,8 @@ pub enum RejectionReason {
     Misleading,
     /// An agent did not come closer to its goal.
     NoProgress,
+    /// Motion does not show which landmark an agent wants its goal's subject on.
+    Unshown,
     /// The manner of helping, hindering or meeting that the variant is about was not seen.
     OtherManner,
     /// The object is still in the room where it was at the start when the agent that waited acts, or that
@@ -75,7 +77,7 @@ pub enum RejectionReason {
 
 impl RejectionReason {
     /// All reasons, in the order in which they are checked.
-    pub const ALL: [Self; 21] = [
+    pub const ALL: [Self; 22] = [
         Self::TooShort,
         Self::TooLong,
         Self::Restless,
@@ -92,6 +94,7 @@ impl RejectionReason {
         Self::Knotted,
         Self::Misleading,
         Self::NoProgress,
+        Self::Unshown,
         Self::OtherManner,
         Self::Unmoved,
         Self::Unsearched,
@@ -119,6 +122,7 @@ impl RejectionReason {
             Self::Knotted => "knotted",
             Self::Misleading => "misleading",
             Self::NoProgress => "no-progress",
+            Self::Unshown => "unshown",
             Self::OtherManner => "other-manner",
             Self::Unmoved => "unmoved",
             Self::Unsearched => "unsearched",

@@ -59,6 +59,44 @@ fn help_may_be_cut_before_the_goal_is_reached() {
     assert_eq!(drawn(&scene, &event(unmoved), None), Err(RejectionReason::NoProgress));
 }
 
+/// As `wanted`, but the object goes so far down on its way to the right.
+fn shows_by(t: usize, down: f32) -> Move {
+    let object = on_way(t, (12.0, 12.0), (18.0, 12.0 - down), 10..30);
+    let helper = if t < 10 { on_way(t, (8.0, 8.0), (10.0, 12.0), 0..10) } else { (object.0 - 2.0, object.1) };
+    let beside = (helper.0, helper.1 + 2.0);
+    let helpee = if t < 12 { on_way(t, (6.0, 18.0), (6.0, 14.0), 0..8) } else { beside };
+    Move { agents: [facing(helper), facing(helpee)], objects: vec![object], held: wanted(t).held }
+}
+
+/// Both landmarks on the right are as far from the object, until it goes down.
+#[test]
+fn motion_shows_which_landmark_is_wanted() {
+    let scene = scene(EventKind::Helping, [THING, THING], Attitude::Help);
+    let judged = |down: f32| drawn(&scene, &event(|t| shows_by(t, down)), None);
+    assert_eq!(judged(0.0), Err(RejectionReason::Unshown));
+    // By 2.41 u: from (12, 12) it is 13.73 u to either landmark, from (18, 10.5) 8.14 u and 10.55 u.
+    assert_eq!(judged(1.5), Err(RejectionReason::Unshown));
+    // By 3.20 u: from (18, 10) it is 7.78 u and 10.98 u.
+    assert!(judged(2.0).is_ok());
+}
+
+/// The object is carried off from (14, 4.5) to (8.5, 4.5), the wrong landmark, before the victim is at it.
+fn hides(t: usize) -> Move {
+    let object = on_way(t, (14.0, 4.5), (8.5, 4.5), 6..26);
+    let hinderer = if t < 26 { (object.0 - 2.0, 4.5) } else { on_way(t, (6.5, 4.5), (6.5, 8.0), 26..31) };
+    let victim = on_way(t, (14.0, 16.0), (8.5, 6.5), 8..29);
+    let held = [(6..26).contains(&t).then_some(0), None];
+    Move { agents: [facing(hinderer), facing(victim)], objects: vec![object], held }
+}
+
+#[test]
+fn who_hides_an_object_keeps_its_goal_from_being_seen() {
+    let scene = scene(EventKind::Hindering, [THING.negated(), THING], Attitude::Hinder);
+    let track = event(hides);
+    assert!(drawn(&scene, &track, Some(Manner::Hiding)).is_ok());
+    assert_eq!(drawn(&scene, &track, None), Err(RejectionReason::Unshown));
+}
+
 #[test]
 fn a_cut_event_is_judged_by_how_far_it_has_come() {
     let scene = scene(EventKind::Helping, [THING, THING], Attitude::Help);
