@@ -34,7 +34,7 @@ pub fn run(arguments: &Stats, context: &Context) -> Result<(), CliError> {
     let answers = arguments.results.as_deref().map(Answers::read).transpose()?;
     let mut figures = EventFigures::of(&arguments.events, arguments.jobs.given(), context)?;
     if let Some(answers) = answers {
-        figures = figures.with_answers(answers);
+        figures = figures.with_answers(answers)?;
     }
     if let Some(out) = &arguments.out {
         figures.write(out).map_err(CliError::Output)?;

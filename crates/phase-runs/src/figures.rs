@@ -59,9 +59,12 @@ impl EventFigures {
     }
 
     /// These figures with the answers of a method beside the events' clarity.
-    #[must_use]
-    pub fn with_answers(self, answers: Answers) -> Self {
-        Self { answers: Some(answers), ..self }
+    ///
+    /// # Errors
+    /// The file of the answers, if none of them is about one of these events.
+    pub fn with_answers(self, answers: Answers) -> Result<Self, RunError> {
+        self.motions.check(&answers)?;
+        Ok(Self { answers: Some(answers), ..self })
     }
 
     /// The figures for programs.

@@ -14,7 +14,11 @@ use phase_files::{FileError, Problem, json::bytes};
 use phase_model::{AGENT_COUNT, AgentId, Relation, RelationProbabilities};
 use phase_statistics::{mean, standard_deviation};
 use serde_json::{Value, json};
-use std::{collections::BTreeMap, iter, path::Path};
+use std::{
+    collections::BTreeMap,
+    iter,
+    path::{Path, PathBuf},
+};
 
 /// File name of the table, which has a row for each event.
 pub(crate) const MOTION_FILE: &str = "motion.csv";
@@ -61,9 +65,13 @@ const RESULTS: &str = "set of results of eval goals";
 /// the landmark to count as [shown](Clarity::shown) (u).
 const SHOWN: f64 = 1.0;
 
-/// The answers of a method to events, by their names.
+/// The answers of a method to events.
 #[derive(Clone, Debug)]
-pub struct Answers(BTreeMap<String, Judged>);
+pub struct Answers {
+    file: PathBuf,
+    /// The answers by the names of their events.
+    judged: BTreeMap<String, Judged>,
+}
 
 /// An answer beside its label.
 #[derive(Clone, Copy, Debug)]
@@ -93,14 +101,14 @@ impl Answers {
             let right = AgentId::ALL.map(|it| event.answer.place(it, event.label.goals[it]) == Some(0));
             (event.id, Judged { reported: event.answer.reported, right })
         };
-        Ok(Self(events.into_iter().map(judged).collect()))
+        Ok(Self { file: file.to_owned(), judged: events.into_iter().map(judged).collect() })
     }
 
     /// The cells of some events: the mean probability that people report the label, how often that is the
     /// likeliest report, and how many goals about landmarks are right where motion shows the landmark, and
     /// where it does not.
     fn cells(&self, rows: &[&Row]) -> String {
-        let told: Vec<_> = rows.iter().filter_map(|row| Some((*row, *self.0.get(&row.id)?))).collect();
+        let told: Vec<_> = rows.iter().filter_map(|row| Some((*row, *self.judged.get(&row.id)?))).collect();
         let reports: Vec<_> =
             told.iter().filter_map(|(row, it)| Some((it.reported?, row.relation))).collect();
         let label: Vec<f64> = reports.iter().map(|(reported, label)| reported.of(*label)).collect();
@@ -201,6 +209,19 @@ impl Motions {
             text += &format!("{id},{set},{condition},{:.2},{values}\n", motion.seconds);
         }
         text
+    }
+
+    /// Checks that answers are about some of these events.
+    ///
+    /// # Errors
+    /// The file of the answers, if none is.
+    pub(crate) fn check(&self, answers: &Answers) -> Result<(), RunError> {
+        if self.0.iter().any(|row| answers.judged.contains_key(&row.id)) {
+            return Ok(());
+        }
+        let rule = "field events must have one of the events given".to_owned();
+        let problem = Problem::Shape { what: RESULTS, rule };
+        Err(RunError::File(FileError { file: answers.file.clone(), problem }))
     }
 
     fn by_condition(&self) -> BTreeMap<&str, Vec<&Row>> {

@@ -22,7 +22,7 @@ use std::{
 /// `fit-intents`.
 #[derive(Args, Debug)]
 pub struct FitEvents {
-    /// The events to fit to: a file in the format phase-events/1, or the folder of a dataset or of
+    /// The events to fit to or to check: a file in the format phase-events/1, or the folder of a dataset or of
     /// simulations; may be given several times
     #[arg(long, value_name = "FILE|DIR", required = true)]
     pub events: Vec<PathBuf>,

@@ -44,4 +44,10 @@ fn clarity_is_told_by_kind_and_beside_it_what_people_would_report() {
     assert!(
         refuse(path, &["stats", "events.json", "--results", "events.json"]).contains("phase-eval-goals/1")
     );
+    for event in results["events"].as_array_mut().expect("events") {
+        event["id"] = json!(format!("other-{}", event["id"].as_str().expect("a name")));
+    }
+    fs::write(path.join("others.json"), results.to_string()).expect("written");
+    let refused = refuse(path, &["stats", "events.json", "--results", "others.json", "--quiet"]);
+    assert!(refused.contains("others.json") && refused.contains("field events must have one"), "{refused}");
 }
