@@ -13,7 +13,7 @@ use crate::{
     query::{clear_room, room_value},
 };
 use phase_evidence::{
-    Effect, GoalOutcome, Manner, Track,
+    Effect, GoalOutcome, Track,
     selection::{Counterfactual, Ending, check_event},
 };
 use phase_model::{AgentId, Entity, Goal, ObjectId, RoomId, Scene, Sight, Sign, State, layout::room_of};
@@ -361,10 +361,10 @@ fn is_missed(state: &State, goal: Goal) -> bool {
 #[must_use]
 pub fn idle_of(facts: &Facts) -> AgentId {
     let lengths = 0..=facts.track.steps();
-    // An event of hiding shows its label by that manner alone.
-    let manners = [None, Some(Manner::Hiding)];
-    let compared = manners.into_iter().find_map(|manner| {
-        check_event(&facts.scene, &facts.track, lengths.clone(), Ending::Drawn(manner)).ok().flatten()
-    });
-    compared.map_or(AgentId::ONE, |Counterfactual { idle, .. }| idle)
+    let ending = Ending::Drawn { manner: None, landmarks: false };
+    let checked = check_event(&facts.scene, &facts.track, lengths, ending);
+    match checked {
+        Ok(Some(Counterfactual { idle, .. })) => idle,
+        _ => AgentId::ONE,
+    }
 }

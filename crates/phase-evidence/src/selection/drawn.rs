@@ -50,26 +50,29 @@ pub(super) fn judge(
     scene: &Scene,
     track: &Track,
     manner: Option<Manner>,
+    landmarks: bool,
 ) -> Result<Option<Counterfactual>, RejectionReason> {
     lively(track)?;
     untied(scene, track)?;
+    // Who hides an object keeps its goal from being seen: that is what such an event shows.
+    let landmarks = Landmarks(landmarks && manner != Some(Manner::Hiding));
     let counterfactual = match scene.kind {
-        EventKind::Helping => Some(helping(scene, track)?),
-        EventKind::Hindering => Some(hindering(scene, track, manner)?),
+        EventKind::Helping => Some(helping(scene, track, landmarks)?),
+        EventKind::Hindering => Some(hindering(scene, track, landmarks)?),
         EventKind::Chasing => Some(chasing(scene, track)?),
         EventKind::Competing => match seeker(scene) {
             Some(seeker) => {
                 searching(scene, track, seeker)?;
                 None
             }
-            None => Some(competing(scene, track)?),
+            None => Some(competing(scene, track, landmarks)?),
         },
         EventKind::Collaborating => {
-            collaborating(scene, track)?;
+            collaborating(scene, track, landmarks)?;
             None
         }
         EventKind::Independent => {
-            independent(scene, track)?;
+            independent(scene, track, landmarks)?;
             None
         }
     };
@@ -108,21 +111,17 @@ pub(super) fn standstill(track: &Track, from: usize) -> usize {
     track.states[from + 1..].iter().take_while(stays).count()
 }
 
-fn helping(scene: &Scene, track: &Track) -> Result<Counterfactual, RejectionReason> {
+fn helping(scene: &Scene, track: &Track, landmarks: Landmarks) -> Result<Counterfactual, RejectionReason> {
     let helper = manner::social_agent(scene);
     let helpee = helper.other();
     pursued(scene, track, helpee)?;
     progressed(scene, track, helpee)?;
     require(tries(track, helpee, scene.agents[helpee].goal), RejectionReason::Aimless)?;
-    shown(scene, track, helpee)?;
+    landmarks.are_shown(scene, track, helpee)?;
     Ok(Counterfactual { idle: helper, judged: helpee, change: CausalEffect::Helped, cut: true })
 }
 
-fn hindering(
-    scene: &Scene,
-    track: &Track,
-    manner: Option<Manner>,
-) -> Result<Counterfactual, RejectionReason> {
+fn hindering(scene: &Scene, track: &Track, landmarks: Landmarks) -> Result<Counterfactual, RejectionReason> {
     let hinderer = manner::social_agent(scene);
     let victim = hinderer.other();
     match scene.agents[victim].goal {
@@ -134,10 +133,7 @@ fn hindering(
             let is_about_a_place = object_of(goal).is_none();
             require(is_about_a_place || tries(track, victim, goal), RejectionReason::NoContact)?;
             require(!serves(track, hinderer, goal), RejectionReason::Misleading)?;
-            // Who hides an object keeps its goal from being seen: that is what such an event shows.
-            if manner != Some(Manner::Hiding) {
-                shown(scene, track, victim)?;
-            }
+            landmarks.are_shown(scene, track, victim)?;
         }
     }
     Ok(Counterfactual { idle: hinderer, judged: victim, change: CausalEffect::Hindered, cut: true })
@@ -166,12 +162,12 @@ fn serves(track: &Track, hinderer: AgentId, goal: Goal) -> bool {
 }
 
 /// Both get the object their way: a viewer sees two aims, not two who carry together.
-fn competing(scene: &Scene, track: &Track) -> Result<Counterfactual, RejectionReason> {
+fn competing(scene: &Scene, track: &Track, landmarks: Landmarks) -> Result<Counterfactual, RejectionReason> {
     let least = contest::favours(track, scene.goals()).into_iter().fold(f32::INFINITY, f32::min);
     let counterfactual = kinds::competing(scene, track)?;
     require(least >= MIN_FAVOUR, RejectionReason::Uncontested)?;
     for agent in AgentId::ALL {
-        shown(scene, track, agent)?;
+        landmarks.are_shown(scene, track, agent)?;
     }
     Ok(counterfactual)
 }
@@ -236,18 +232,18 @@ fn lasting_chase(track: &Track, chaser: AgentId) -> Result<(), RejectionReason> 
     require(2 * away.moving >= last.steps(), RejectionReason::NoFlight)
 }
 
-fn collaborating(scene: &Scene, track: &Track) -> Result<(), RejectionReason> {
+fn collaborating(scene: &Scene, track: &Track, landmarks: Landmarks) -> Result<(), RejectionReason> {
     progressed(scene, track, AgentId::ZERO)?;
-    shown(scene, track, AgentId::ZERO)?;
+    landmarks.are_shown(scene, track, AgentId::ZERO)?;
     let object = object_of(scene.agents[0].goal).unwrap_or(ObjectId::ZERO);
     kinds::shared(track, object)
 }
 
-fn independent(scene: &Scene, track: &Track) -> Result<(), RejectionReason> {
+fn independent(scene: &Scene, track: &Track, landmarks: Landmarks) -> Result<(), RejectionReason> {
     for agent in AgentId::ALL {
         pursued(scene, track, agent)?;
         progressed(scene, track, agent)?;
-        shown(scene, track, agent)?;
+        landmarks.are_shown(scene, track, agent)?;
         if let Some(object) = object_of(scene.agents[agent.other()].goal) {
             let meddled = holding::carried(track, agent, object).steps;
             require(meddled == 0, RejectionReason::Interference)?;
@@ -270,8 +266,15 @@ fn progressed(scene: &Scene, track: &Track, agent: AgentId) -> Result<(), Reject
     require(start - nearest >= MIN_PROGRESS, RejectionReason::NoProgress)
 }
 
-/// Motion shows the landmark of an agent's goal, if that is about one.
-fn shown(scene: &Scene, track: &Track, agent: AgentId) -> Result<(), RejectionReason> {
-    let lead = clarity::landmark_shown(track, scene.agents[agent].goal);
-    require(lead.is_none_or(|lead| lead >= f64::from(MIN_SHOWN)), RejectionReason::Unshown)
+/// Whether motion has to show the landmarks of goals.
+#[derive(Clone, Copy)]
+struct Landmarks(bool);
+
+impl Landmarks {
+    /// Motion shows the landmark of an agent's goal, if it has to and the goal is about one.
+    fn are_shown(self, scene: &Scene, track: &Track, agent: AgentId) -> Result<(), RejectionReason> {
+        let lead = clarity::landmark_shown(track, scene.agents[agent].goal);
+        let shown = lead.is_none_or(|lead| lead >= f64::from(MIN_SHOWN));
+        require(!self.0 || shown, RejectionReason::Unshown)
+    }
 }

@@ -190,8 +190,14 @@ const MIN_DIFFERENCE: f32 = 2.0;
 pub enum Ending {
     /// Once everything is settled; an adversarial event may end earlier.
     Settled,
-    /// At a sampled step, before or after the outcome. If a manner is given, it has to be seen.
-    Drawn(Option<Manner>),
+    /// At a sampled step, before or after the outcome.
+    Drawn {
+        /// The manner that has to be seen, if any.
+        manner: Option<Manner>,
+        /// Whether motion has to show the landmarks of the agents' goals, except where the manner is
+        /// [hiding](Manner::Hiding).
+        landmarks: bool,
+    },
 }
 
 /// Everything that can be checked on an event alone; `lengths` are those allowed (steps). `Ok(None)` means
@@ -217,7 +223,7 @@ pub fn check_event(
             common::check_rest_at_end(scene, track)?;
             kinds::judge(scene, track)
         }
-        Ending::Drawn(manner) => drawn::judge(scene, track, manner),
+        Ending::Drawn { manner, landmarks } => drawn::judge(scene, track, manner, landmarks),
     }
 }
 
@@ -240,7 +246,7 @@ pub fn certain_rejection(
     lengths: RangeInclusive<usize>,
     ending: Ending,
 ) -> Option<RejectionReason> {
-    let Ending::Drawn(_) = ending else { return None };
+    let Ending::Drawn { .. } = ending else { return None };
     if drawn::is_lifeless_however_it_goes_on(track, *lengths.end()) {
         return Some(RejectionReason::Lifeless);
     }

@@ -318,7 +318,8 @@ impl<'a> Watch<'a> {
 }
 
 /// Requirements on an event of a variant: its length (steps), and its ending. One of a set may show its
-/// label in any manner.
+/// label in any manner, and need not show landmarks: all events of a set have to show their labels, which few
+/// stages allow.
 pub(crate) fn required(
     selection: &Selection,
     variant: Variant,
@@ -326,7 +327,7 @@ pub(crate) fn required(
 ) -> (RangeInclusive<usize>, Ending) {
     let ending = match selection.ends {
         Ends::Settled | Ends::AdversarialDrawn => Ending::Settled,
-        Ends::Drawn => Ending::Drawn(manner_of(variant).filter(|_| !of_set)),
+        Ends::Drawn => Ending::Drawn { manner: manner_of(variant).filter(|_| !of_set), landmarks: !of_set },
     };
     (selection.min_steps..=selection.max_steps, ending)
 }
