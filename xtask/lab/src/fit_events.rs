@@ -22,8 +22,8 @@ use std::{
 /// `fit-intents`.
 #[derive(Args, Debug)]
 pub struct FitEvents {
-    /// The events to fit to or to check: a file in the format phase-events/1, or the folder of a dataset or of
-    /// simulations; may be given several times
+    /// The events to fit to or to check: a file in the format phase-events/1, or the folder of a dataset or
+    /// of simulations; may be given several times
     #[arg(long, value_name = "FILE|DIR", required = true)]
     pub events: Vec<PathBuf>,
     /// Further events, to which nothing is fitted; their figures are reported beside. May be given several

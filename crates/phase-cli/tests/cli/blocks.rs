@@ -8,7 +8,7 @@ use std::fs;
 
 /// Two blocks of three events.
 const PRESET: &str = r#"{
-  "format": "phase-preset/3", "name": "blocks", "seed": 6,
+  "format": "phase-preset/3", "name": "blocks", "seed": 8,
   "layouts": {"some": [0, 2, 6]},
   "selection": {"min_steps": 40, "max_steps": 60, "attempts": 400, "ends": "drawn"},
   "blocks": {
