@@ -273,8 +273,8 @@ struct Landmarks(bool);
 impl Landmarks {
     /// Motion shows the landmark of an agent's goal, if it has to and the goal is about one.
     fn are_shown(self, scene: &Scene, track: &Track, agent: AgentId) -> Result<(), RejectionReason> {
-        let lead = clarity::landmark_shown(track, scene.agents[agent].goal);
-        let shown = lead.is_none_or(|lead| lead >= f64::from(MIN_SHOWN));
-        require(!self.0 || shown, RejectionReason::Unshown)
+        let lead = || clarity::landmark_shown(track, scene.agents[agent].goal);
+        let shown = !self.0 || lead().is_none_or(|lead| lead >= f64::from(MIN_SHOWN));
+        require(shown, RejectionReason::Unshown)
     }
 }
