@@ -1,6 +1,6 @@
 //! All paths through an event that are followed at once.
 
-use super::{interpolation, path::Path, reading::Reading, replay::Replay, search::explanations};
+use super::{interpolation, path::Path, reading::Reading, replay::Replay, search::{Before, explanations}};
 use phase_event::{ObservedError, ObservedEvent};
 use phase_model::{Body, MAX_ENTITIES, State};
 
@@ -10,6 +10,11 @@ const BEAM_WIDTH: usize = 8;
 const SAME_GRIPS: usize = 3;
 /// Paths whose cost exceeds that of the best by more, about one step that is not explained, are given up.
 const GIVE_UP: f64 = 5.0;
+/// Mean cost of a step (nat) up to which a path counts as exact: 0.1 to 0.5 on recordings, made by this physics,
+/// 2 to 5 where another made the motion.
+const EXACT_COST: f64 = 1.0;
+/// Free steps that this mean takes in beside those of the path.
+const EXACT_STEPS: usize = 4;
 
 /// All paths that were followed, and which of them still are.
 #[derive(Clone, Debug)]
@@ -82,9 +87,13 @@ impl Beam {
         for &number in &self.followed {
             let path = &self.paths[number];
             let (replay, between) = &self.readings[path.reading];
-            for explanation in
-                explanations(replay, &path.tracked, replay.row(t), path.strengths, path.actions)
-            {
+            let before = Before {
+                tracked: &path.tracked,
+                strengths: path.strengths,
+                actions: path.actions,
+                exact: path.cost <= EXACT_COST * (t + EXACT_STEPS) as f64,
+            };
+            for explanation in explanations(replay, &before, replay.row(t)) {
                 longer.extend(path.extended(number, replay, explanation, &between[t]));
             }
         }

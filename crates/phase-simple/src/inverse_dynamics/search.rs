@@ -13,6 +13,9 @@ const EXACT: f32 = 0.003;
 const ROUNDS: usize = 3;
 /// Explanations of a step that are followed if none is exact, beside those that change grips.
 const MAX_INEXACT: usize = 6;
+/// Pairs of candidate actions that are compared where agents may act on each other and no exact explanation
+/// is to be expected.
+const PROMISING: usize = 32;
 /// Explanations are followed up to this multiple of the smallest residual.
 const WORSE: f32 = 3.0;
 
@@ -35,21 +38,29 @@ struct Search<'a> {
     residuals: Vec<Option<f32>>,
 }
 
-/// The best explanations of a step from a state, at least one, best first. `strengths` are those possible for
-/// each agent, one bit for each level; the search begins with the actions `last`.
+/// What a step continues.
+pub(super) struct Before<'a> {
+    pub(super) tracked: &'a TrackedState,
+    /// The possible strengths of each agent, one bit for each level.
+    pub(super) strengths: [u8; AGENT_COUNT],
+    /// The actions of the step before.
+    pub(super) actions: [Action; AGENT_COUNT],
+    /// Whether the steps before were explained so well that an exact explanation is to be expected.
+    pub(super) exact: bool,
+}
+
+/// The best explanations of a step, at least one, best first. `row` is the row that it leads to.
 pub(super) fn explanations(
     replay: &Replay,
-    tracked: &TrackedState,
+    before: &Before<'_>,
     row: &[Body; MAX_ENTITIES],
-    strengths: [u8; AGENT_COUNT],
-    last: [Action; AGENT_COUNT],
 ) -> Vec<Explanation> {
-    let candidates = AgentId::ALL.map(|agent| replay.candidates(&tracked.state, agent, strengths[agent]));
+    let tracked = before.tracked;
+    let candidates =
+        AgentId::ALL.map(|agent| replay.candidates(&tracked.state, agent, before.strengths[agent]));
     let residuals = vec![None; candidates[0].len() * candidates[1].len()];
     let mut search = Search { replay, tracked, row, candidates, residuals };
-    let [firsts, seconds] = search.shortlist(last);
-    let both = firsts.iter().flat_map(|&first| seconds.iter().map(move |&second| [first, second]));
-    let both: Vec<_> = both.collect();
+    let both = search.shortlist(before);
     let residuals = search.residuals(&both);
     let mut pairs: Vec<_> = both.iter().map(|&pair| search.named(pair)).zip(residuals).collect();
     pairs.sort_by(|a, b| a.1.total_cmp(&b.1));
@@ -79,10 +90,10 @@ impl Search<'_> {
         residual
     }
 
-    /// The candidate actions of each agent that are to be combined with those of the other.
-    fn shortlist(&mut self, last: [Action; AGENT_COUNT]) -> [Vec<usize>; AGENT_COUNT] {
+    /// The pairs of candidate actions that are to be compared.
+    fn shortlist(&mut self, before: &Before<'_>) -> Vec<[usize; AGENT_COUNT]> {
         let again = |agent: AgentId| {
-            self.candidates[agent].iter().position(|candidate| candidate.0 == last[agent]).unwrap_or(0)
+            self.candidates[agent].iter().position(|candidate| candidate.0 == before.actions[agent]).unwrap_or(0)
         };
         let mut best = AgentId::ALL.map(again);
         let mut residuals: [Vec<f32>; AGENT_COUNT] = [Vec::new(), Vec::new()];
@@ -109,18 +120,52 @@ impl Search<'_> {
             }
         }
         let least = residuals[1].iter().copied().fold(f32::INFINITY, f32::min);
-        if least > self.replay.exact() && coupled(self.replay, &self.tracked.state) {
-            return AgentId::ALL.map(|agent| (0..self.candidates[agent].len()).collect());
+        let inexact = least > self.replay.exact();
+        if inexact && coupled(self.replay, &self.tracked.state) {
+            let count = if before.exact { usize::MAX } else { PROMISING };
+            return self.promising(&residuals, least, count);
         }
         let limit = self.replay.limit(least);
-        AgentId::ALL.map(|agent| {
+        let [firsts, seconds] = AgentId::ALL.map(|agent| {
             let follow = |(candidate, residual): (usize, &f32)| {
                 let good = *residual <= limit || candidate == best[agent];
-                (good || least > self.replay.exact() && changes_grip(self.candidates[agent][candidate]))
-                    .then_some(candidate)
+                (good || inexact && changes_grip(self.candidates[agent][candidate])).then_some(candidate)
             };
-            residuals[agent].iter().enumerate().filter_map(follow).collect()
-        })
+            residuals[agent].iter().enumerate().filter_map(follow).collect::<Vec<_>>()
+        });
+        firsts.iter().flat_map(|&first| seconds.iter().map(move |&second| [first, second])).collect()
+    }
+
+    /// So many pairs of candidate actions, and the first that changes other grips than those: the most
+    /// promising ones if what either agent does changes the residual as much whatever the other does, so that
+    /// the squares of `residuals`, each with the other's best action, add up.
+    fn promising(
+        &self,
+        residuals: &[Vec<f32>; AGENT_COUNT],
+        least: f32,
+        count: usize,
+    ) -> Vec<[usize; AGENT_COUNT]> {
+        let [firsts, seconds] = residuals;
+        let square = |first: usize, second: usize| {
+            firsts[first] * firsts[first] + seconds[second] * seconds[second] - least * least
+        };
+        let mut pairs: Vec<([usize; AGENT_COUNT], f32)> = (0..firsts.len())
+            .flat_map(|first| (0..seconds.len()).map(move |second| ([first, second], square(first, second))))
+            .collect();
+        pairs.sort_by(|a, b| a.1.total_cmp(&b.1));
+        let mut kinds: Vec<[bool; AGENT_COUNT]> = Vec::new();
+        let mut promising = Vec::new();
+        for (place, (pair, _)) in pairs.into_iter().enumerate() {
+            let kind = self.named(pair).map(changes_grip);
+            let new = !kinds.contains(&kind);
+            if new {
+                kinds.push(kind);
+            }
+            if new || place < count {
+                promising.push(pair);
+            }
+        }
+        promising
     }
 }
 
