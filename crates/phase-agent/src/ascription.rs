@@ -37,7 +37,7 @@ pub struct TheoryParameters {
     pub confidence: f64,
     /// Steps of watching after which a helper or hinderer acts, whatever the share (above 0).
     pub patience: f64,
-    /// Share of the particles in which a hinderer of level 2 is seen from which it waits, 0 to 1.
+    /// Cost of a step at whose end the other perceives a hinderer of level 2 (reward), at least 0.
     pub discretion: f64,
     /// Bearing of the other, relative to its own heading, up to which a watcher does not turn (rad).
     pub watching_angle: f32,

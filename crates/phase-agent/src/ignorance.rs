@@ -1,11 +1,8 @@
 //! Decisions of a mind that does not know the other's: acting or watching.
 
-use crate::{
-    ascription::TheoryParameters,
-    theory::{self, Supposition},
-};
+use crate::{ascription::TheoryParameters, theory::Supposition};
 use phase_event::BelievedIntent;
-use phase_model::{AgentId, Attitude, Intent, Level, PhysicsConfig, State};
+use phase_model::{Attitude, Intent, Level, PhysicsConfig};
 use phase_planner::{Candidate, Planner};
 use std::collections::BTreeMap;
 
@@ -22,39 +19,23 @@ pub(crate) struct Ignorance<D> {
     pub(crate) watched: u32,
 }
 
-/// The agent that decides.
-pub(crate) struct Social<'a> {
-    pub(crate) agent: AgentId,
-    pub(crate) attitude: Attitude,
-    pub(crate) physics: &'a PhysicsConfig,
-}
-
 impl<D> Ignorance<D> {
     /// The subgoal to pursue; `None` if there is none, or if the agent had better watch the other first.
     ///
     /// A helper or hinderer with a wrong idea of the other may bring about the opposite of what it wants. So
     /// one that reasons about the other's mind pursues a subgoal only once enough of the particles have
     /// intents that suggest it; where bodies are does not have to be certain. How many are enough falls with
-    /// the time that it has watched, so that an agent that learns nothing more tries. A hinderer of level 2
-    /// also waits while it is seen.
+    /// the time that it has watched, so that an agent that learns nothing more tries.
     pub(crate) fn best<'c>(
         &self,
-        who: &Social<'_>,
-        particles: &[State],
+        attitude: Attitude,
         suppositions: &[Supposition],
         candidates: &'c [Candidate],
     ) -> Option<&'c Candidate> {
-        if suppositions.is_empty() || who.attitude == Attitude::Neutral || self.level == Level::Zero {
+        if suppositions.is_empty() || attitude == Attitude::Neutral || self.level == Level::Zero {
             return candidates.first();
         }
         let count = suppositions.len() as f64;
-        if self.level == Level::Two && who.attitude == Attitude::Hinder {
-            let seen = |state: &&State| theory::is_seen(who.physics, state, who.agent);
-            let seen = particles.iter().filter(seen).count() as f64;
-            if seen > self.theory.discretion * count {
-                return None;
-            }
-        }
         let theory = &self.theory;
         let patience = 1.0 - (f64::from(self.watched) / theory.patience).min(1.0);
         let agree = |candidate: &&Candidate| {
@@ -63,6 +44,13 @@ impl<D> Ignorance<D> {
             agreeing >= theory.confidence * patience * count
         };
         candidates.iter().find(agree)
+    }
+
+    /// What being seen costs in a step (reward): a hinderer of level 2 knows that the other infers what it is
+    /// after from what it sees.
+    pub(crate) fn exposure(&self, attitude: Attitude) -> f64 {
+        let secret = self.level == Level::Two && attitude == Attitude::Hinder;
+        if secret { self.theory.discretion } else { 0.0 }
     }
 
     /// Counts a step of watching, or of acting.

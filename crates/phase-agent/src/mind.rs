@@ -3,7 +3,7 @@
 use crate::{
     PhaseParameters, PolicyNetwork, Prior, action_set,
     ascription::TheoryParameters,
-    ignorance::{Ignorance, Social, believed, commonest},
+    ignorance::{Ignorance, believed, commonest},
     matter::{Consideration, Matter, Question, likeliest, localised, sample, summary_of, target_entity},
     objective::Objective,
     policy::summary,
@@ -173,10 +173,7 @@ impl<D: Dynamics> Mind<D> {
         let candidates = value::candidates(&by_particle, self.parameters.lambda);
         let subgoals: Vec<SubgoalValue> = candidates.iter().map(summary_of).collect();
         let best = match &self.ignorance {
-            Some(ignorance) => {
-                let who = Social { agent: self.agent, attitude: self.attitude, physics: &self.physics };
-                ignorance.best(&who, particles, belief_view.suppositions, &candidates)
-            }
+            Some(ignorance) => ignorance.best(self.attitude, belief_view.suppositions, &candidates),
             None => candidates.first(),
         };
         if let (Some(ignorance), false) = (&mut self.ignorance, candidates.is_empty()) {
@@ -353,6 +350,7 @@ impl<D: Dynamics> Mind<D> {
             goals,
             rewards_goals: !matches!(unobserved, Some(Entity::Object(_))),
             attitude: self.attitude,
+            exposure: self.ignorance.as_ref().map_or(0.0, |it| it.exposure(self.attitude)),
             root_prior: Vec::new(),
         };
         // If all particles are equal, one root suffices and the search can cache its transitions.

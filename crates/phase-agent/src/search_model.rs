@@ -35,6 +35,8 @@ pub struct SearchModel<'a, D> {
     pub rewards_goals: bool,
     /// The agent's attitude.
     pub attitude: Attitude,
+    /// Cost of a step at whose end the other perceives the agent (reward), at least 0.
+    pub exposure: f64,
     /// Prior weights of the root's actions, in place of habits; empty for none.
     pub root_prior: Vec<f64>,
 }
@@ -87,12 +89,20 @@ impl<D> SearchModel<'_, D> {
             f64::from(u8::from(holds))
         };
         let shaping = -f64::from(search_state.distance / arena::DIAGONAL);
+        let exposure = if self.exposure > 0.0 && self.is_seen(state) { self.exposure } else { 0.0 };
         reward::social_reward(
             self.attitude,
             satisfied(self.goals[agent]),
             satisfied(self.goals[agent.other()]),
             action,
         ) + shaping
+            - exposure
+    }
+
+    /// Whether the other perceives the agent.
+    fn is_seen(&self, state: &State) -> bool {
+        let agent = self.objective.agent();
+        observed_set(self.physics, state, agent.other()).contains(Entity::Agent(agent))
     }
 
     /// Coarse observation: which entities are observed, and which observed agent holds what.

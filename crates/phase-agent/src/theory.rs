@@ -10,7 +10,7 @@ use phase_model::{
     PhysicsConfig, Scene, Sign, State, Strength, physical_goals,
 };
 use phase_navigation::Navigator;
-use phase_perception::{Observation, observed_set};
+use phase_perception::Observation;
 use phase_planner::Planner;
 
 /// The mind and strength that one particle of a belief ascribes to the other agent.
@@ -330,11 +330,6 @@ fn goals_of_other(agent: AgentId, own: Goal, intent: Intent) -> [Goal; AGENT_COU
 pub(crate) fn with_strength(mut physics: PhysicsConfig, agent: AgentId, strength: Strength) -> PhysicsConfig {
     physics.agents[agent].max_force = strength.max_force();
     physics
-}
-
-/// Whether an agent is seen by the other in a state.
-pub(crate) fn is_seen(physics: &PhysicsConfig, state: &State, agent: AgentId) -> bool {
-    observed_set(physics, state, agent.other()).contains(Entity::Agent(agent))
 }
 
 /// Indices of weights, `count` in all, in proportion to these: systematic resampling without chance. Equal

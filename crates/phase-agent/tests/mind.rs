@@ -134,6 +134,7 @@ fn rewards_follow_equation_1() {
                 goals,
                 rewards_goals: true,
                 attitude,
+                exposure: 0.0,
                 root_prior: Vec::new(),
             };
             let mut after = SearchState::new(&objective, state, None);
@@ -151,6 +152,38 @@ fn rewards_follow_equation_1() {
             let reward = looking.rollout_step(&mut after, 0, &mut stream(1, Purpose::Search, 0)).reward;
             assert!((reward - (expected - social)).abs() < 1e-6, "{attitude:?} {action:?}: {reward}");
         }
+    }
+}
+
+#[test]
+fn being_seen_costs() {
+    const EXPOSURE: f64 = 0.5;
+    // Agent 1 stands in the same room, 6 u above agent 0, and looks down or up.
+    let mut scene = scene(Vec2::new(23.5, 3.5), 0.0);
+    scene.agents[1].start.position = Vec2::new(23.5, 9.5);
+    let subgoal = achieve(Predicate::On(Entity::Agent(AgentId::ZERO), LandmarkId::TOP_RIGHT));
+    for (angle, costs) in [(core::f32::consts::PI, EXPOSURE), (0.0, 0.0)] {
+        scene.agents[1].start.angle = angle;
+        let physics = scene.physics();
+        let state = scene.initial_state();
+        let forward = Forward::new(&physics);
+        let reward = |exposure| {
+            let model = SearchModel {
+                dynamics: &forward,
+                physics: &physics,
+                objective: compiled(&physics, &scene, &state, subgoal),
+                other_objective: compiled(&physics, &scene, &state, Subgoal::Stay),
+                actions: &[Action::Stop],
+                goals: [ON_2, OTHER_ON_0],
+                rewards_goals: true,
+                attitude: Attitude::Hinder,
+                exposure,
+                root_prior: Vec::new(),
+            };
+            let mut after = SearchState::new(&model.objective, state, None);
+            model.rollout_step(&mut after, 0, &mut stream(1, Purpose::Search, 0)).reward
+        };
+        assert!((reward(0.0) - reward(EXPOSURE) - costs).abs() < 1e-9, "{angle}");
     }
 }
 

@@ -11,7 +11,7 @@ pub enum Level {
     /// It infers the other's intent from what it sees the other do.
     #[default]
     One,
-    /// It infers, and assumes that the other infers, too: a hinderer waits while it is seen.
+    /// It infers, and assumes that the other infers, too: a hinderer plans to be unseen.
     Two,
 }
 

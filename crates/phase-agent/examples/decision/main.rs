@@ -82,6 +82,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         goals: scene.goals(),
         rewards_goals: true,
         attitude: scene.agents[ME].attitude,
+        exposure: 0.0,
         root_prior: Vec::new(),
     };
     let mut priors = Vec::new();

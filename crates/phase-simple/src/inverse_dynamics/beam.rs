@@ -1,6 +1,12 @@
 //! All paths through an event that are followed at once.
 
-use super::{interpolation, path::Path, reading::Reading, replay::Replay, search::{Before, explanations}};
+use super::{
+    interpolation,
+    path::Path,
+    reading::Reading,
+    replay::Replay,
+    search::{Before, explanations},
+};
 use phase_event::{ObservedError, ObservedEvent};
 use phase_model::{Body, MAX_ENTITIES, State};
 

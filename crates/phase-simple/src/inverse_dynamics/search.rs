@@ -93,7 +93,10 @@ impl Search<'_> {
     /// The pairs of candidate actions that are to be compared.
     fn shortlist(&mut self, before: &Before<'_>) -> Vec<[usize; AGENT_COUNT]> {
         let again = |agent: AgentId| {
-            self.candidates[agent].iter().position(|candidate| candidate.0 == before.actions[agent]).unwrap_or(0)
+            self.candidates[agent]
+                .iter()
+                .position(|candidate| candidate.0 == before.actions[agent])
+                .unwrap_or(0)
         };
         let mut best = AgentId::ALL.map(again);
         let mut residuals: [Vec<f32>; AGENT_COUNT] = [Vec::new(), Vec::new()];
