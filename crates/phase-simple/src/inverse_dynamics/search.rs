@@ -38,7 +38,7 @@ struct Search<'a> {
     residuals: Vec<Option<f32>>,
 }
 
-/// What a step continues.
+/// The path that a step continues.
 pub(super) struct Before<'a> {
     pub(super) tracked: &'a TrackedState,
     /// The possible strengths of each agent, one bit for each level.
