@@ -46,8 +46,8 @@ impl<D> Ignorance<D> {
         candidates.iter().find(agree)
     }
 
-    /// Cost of being seen in a step (reward): a hinderer of level 2 knows that the other infers what it is after
-    /// from what it sees.
+    /// Cost of being seen in a step (reward): a hinderer of level 2 knows that the other infers what it is
+    /// after from what it sees.
     pub(crate) fn exposure(&self, attitude: Attitude) -> f64 {
         let secret = self.level == Level::Two && attitude == Attitude::Hinder;
         if secret { self.theory.discretion } else { 0.0 }
