@@ -2,9 +2,8 @@
 
 use crate::{Track, contact, outcome, rest};
 use core::ops::Range;
-use phase_model::{
-    AGENT_COUNT, AgentId, Entity, Goal, LandmarkId, ObjectId, Scene, Sign, State, Vec2, arena,
-};
+use phase_model::{AGENT_COUNT, AgentId, Entity, Goal, ObjectId, Scene, Sign, State};
+use phase_predicates::landmark_lead;
 
 /// An object that both agents are at gets on where it leaves its place by this distance (u).
 const PROGRESS: f32 = 1.0;
@@ -111,15 +110,7 @@ pub fn landmark_shown(track: &Track, goal: Goal) -> Option<f64> {
     let wanted = goal.landmark()?;
     let place = |state: &State| state.position(goal.subject());
     let start = place(track.states.first()?);
-    let gain = |place: Vec2, landmark: LandmarkId| {
-        let to = arena::LANDMARKS[landmark];
-        start.distance(to) - place.distance(to)
-    };
-    let lead = |state: &State| {
-        let others = LandmarkId::ALL.into_iter().filter(|&other| other != wanted);
-        let best = others.map(|other| gain(place(state), other)).fold(f32::NEG_INFINITY, f32::max);
-        gain(place(state), wanted) - best
-    };
+    let lead = |state: &State| landmark_lead(start, place(state), wanted);
     Some(f64::from(track.states.iter().map(lead).fold(0.0, f32::max)))
 }
 

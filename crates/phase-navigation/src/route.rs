@@ -45,6 +45,22 @@ impl Route {
         &self.doors[..usize::from(self.door_count)]
     }
 
+    /// The point of this route, which leads between two ends, at some distance along it (u); the second end
+    /// if the route is shorter.
+    #[must_use]
+    pub fn at(&self, from: Vec2, to: Vec2, mut distance: f32) -> Vec2 {
+        let mut start = from;
+        for end in self.doors().iter().map(|&(_, crossing)| crossing).chain([to]) {
+            let length = start.distance(end);
+            if distance < length {
+                return start + (end - start) * (distance / length);
+            }
+            distance -= length;
+            start = end;
+        }
+        to
+    }
+
     /// The point of this route, which leads between two ends, that is closest to some point (u).
     #[must_use]
     pub fn nearest(&self, from: Vec2, to: Vec2, point: Vec2) -> Vec2 {

@@ -37,6 +37,22 @@ fn a_narrow_door_is_crossed_in_its_middle() {
 }
 
 #[test]
+fn places_on_a_way_are_measured_along_it() {
+    let map = narrow();
+    let (from, to) = (Vec2::new(14.0, 14.0), Vec2::new(14.0, 10.0));
+    let route = route(&map, from, to, 2.4);
+    let crossing = route.doors()[0].1;
+    let first = from.distance(crossing);
+    let halfway = from.lerp(crossing, 0.5);
+    assert!(route.at(from, to, 0.0).distance(from) < 1e-4);
+    assert!(route.at(from, to, 0.5 * first).distance(halfway) < 1e-4);
+    assert!(route.at(from, to, first).distance(crossing) < 1e-4);
+    let beyond = crossing + (to - crossing).normalize();
+    assert!(route.at(from, to, first + 1.0).distance(beyond) < 1e-4);
+    assert!(route.at(from, to, 100.0).distance(to) < 1e-4, "farther than the route is long");
+}
+
+#[test]
 fn who_does_not_fit_pays_for_it() {
     let map = narrow();
     let from = Vec2::new(7.0, 14.0);

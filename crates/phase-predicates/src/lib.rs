@@ -35,8 +35,10 @@
 #![deny(missing_docs)]
 
 pub mod evaluate;
+pub mod lead;
 pub mod symbolic;
 pub mod threshold;
 
 pub use evaluate::{achieved, holds, is_true};
+pub use lead::landmark_lead;
 pub use symbolic::SymbolicState;

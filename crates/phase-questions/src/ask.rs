@@ -14,7 +14,7 @@ use crate::{
 };
 use phase_evidence::{
     Effect, GoalOutcome, Track,
-    selection::{Counterfactual, Ending, check_event},
+    selection::decisive_agent,
 };
 use phase_model::{AgentId, Entity, Goal, ObjectId, RoomId, Scene, Sight, Sign, State, layout::room_of};
 use phase_perception::observed_set;
@@ -356,15 +356,8 @@ fn is_missed(state: &State, goal: Goal) -> bool {
     goal.distance(state) >= MISSED
 }
 
-/// The agent whose absence an event is compared with: that of the test of its label, or agent 1 where that
-/// test needs none.
+/// The agent whose absence an event is compared with: the decisive one of its kind, or agent 1.
 #[must_use]
 pub fn idle_of(facts: &Facts) -> AgentId {
-    let lengths = 0..=facts.track.steps();
-    let ending = Ending::Drawn { manner: None, landmarks: false };
-    let checked = check_event(&facts.scene, &facts.track, lengths, ending);
-    match checked {
-        Ok(Some(Counterfactual { idle, .. })) => idle,
-        _ => AgentId::ONE,
-    }
+    decisive_agent(&facts.scene, &facts.track).unwrap_or(AgentId::ONE)
 }

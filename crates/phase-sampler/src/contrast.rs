@@ -9,7 +9,7 @@ use crate::{
     draft::{Objects, Starts, agent_on, choose, object_on},
     hiding::Hiding,
     recipe::{self, MAX_DRAWS},
-    requirements::{is_moved_soon, is_playable},
+    requirements::{is_first_at_object, is_moved_soon, is_playable, shows_its_landmark_soon},
 };
 use phase_model::{
     AgentId, Attitude, Awareness, EventKind, Goal, LandmarkId, Layout, ObjectId, Relation, Scene, Sight,
@@ -17,9 +17,9 @@ use phase_model::{
 use rand::{Rng, RngExt};
 use serde::{Deserialize, Serialize};
 
-/// Maximum number of draws of scenes in which an agent is to miss how an object is moved.
-const HIDING_DRAWS: usize = 100 * MAX_DRAWS;
-/// Draws of such scenes in a layout before another is taken.
+/// Maximum number of draws of the bodies of a set: few suit all its stances.
+const SET_DRAWS: usize = 100 * MAX_DRAWS;
+/// Draws in a layout before another is taken, of scenes in which an agent is to miss how an object is moved.
 const DRAWS_PER_LAYOUT: usize = 2000;
 
 /// The stance of an agent towards the other, or its knowledge of what the other does.
@@ -168,9 +168,8 @@ impl Contrast {
         }
         // Most places that hide how an object is moved are in few layouts, so each layout has its turn.
         let hides = variant == Variant::Seek;
-        let draws = if hides { HIDING_DRAWS } else { MAX_DRAWS };
         let mut layout = [request.layouts[0]];
-        for draw in 0..draws {
+        for draw in 0..SET_DRAWS {
             if hides && draw % DRAWS_PER_LAYOUT == 0 {
                 layout = [choose(request.layouts, random)];
             }
@@ -209,6 +208,10 @@ fn propose(request: &ContrastRequest<'_>, random: &mut impl Rng) -> Option<Vec<S
         let hiding = Hiding::of(&bodies).filter(|_| is_moved_soon(&bodies))?;
         bodies.agents[0].start = hiding.draw_start(request.starts, random)?;
     }
+    let acted_on = request.stances.iter().any(|stance| matches!(stance, Stance::Help | Stance::Hinder));
+    if acted_on && !is_first_at_object(&bodies) {
+        return None;
+    }
     let waits = if of_beliefs { random.random_range(adversarial::WAITS) } else { 0 };
     let mut scenes = Vec::with_capacity(request.stances.len());
     for &stance in request.stances {
@@ -227,6 +230,9 @@ fn of_stance(bodies: &Scene, stance: Stance, about: About, elsewhere: LandmarkId
     let variant = stance.variant(about);
     let (goal, attitude) = stance.of_agent(bodies.agents[1].goal, elsewhere);
     (scene.agents[0].goal, scene.agents[0].attitude, scene.kind) = (goal, attitude, variant.kind());
+    if stance.sight().is_none() && !scene.goals().iter().all(|&goal| shows_its_landmark_soon(&scene, goal)) {
+        return None;
+    }
     // Role 0 of this variant is the one that moves an object.
     let playable = if variant == Variant::Mixed {
         is_playable(variant, &recipe::exchanged(&scene), true)

@@ -13,6 +13,7 @@ use phase_model::{
 };
 use phase_navigation::{IMPASSABLE_COST, Map};
 use phase_perception::sees;
+use phase_predicates::lead::{MIN_LANDMARK_LEAD, landmark_lead};
 
 /// Minimum ratio of a goal's cost without the helper to its cost with the helper.
 const MIN_COST_RATIO: f32 = 1.5;
@@ -34,6 +35,8 @@ const MAX_SHARED: f32 = 8.0;
 const MAX_BY: f32 = 8.0;
 /// Maximum distance from an object's way to its landmark of an agent that is to take it over there (u).
 const MAX_ASIDE: f32 = 2.0;
+/// Length of the beginning of an object's way that is to show where it is brought (u).
+const SOON: f32 = 8.0;
 /// The hinderer is that much nearer to the object that it is to take first, or farther from the one that it
 /// is to take later, than the victim (u).
 const MIN_HEAD_START: f32 = 4.0;
@@ -181,6 +184,31 @@ fn is_placed(variant: Variant, scene: &Scene) -> bool {
         }
         _ => true,
     }
+}
+
+/// Whether agent 1, if it wants an object somewhere, sees that and is by it, while agent 0 comes later. It is
+/// then seen to try, and shows what it wants, before it is helped or hindered.
+pub(crate) fn is_first_at_object(scene: &Scene) -> bool {
+    let Some(object) = object_of(scene.agents[1].goal) else { return true };
+    let place = room_of(scene.objects[object.index()].start.position);
+    let [late, early] = [0, 1].map(|role| start_distance(scene, role, object));
+    place == room_of(scene.agents[1].start.position)
+        && early <= MAX_BY
+        && early + MIN_HEAD_START <= late
+        && late <= MAX_ARRIVAL
+        && sees(&scene.physics(), &scene.initial_state(), AgentId::ONE, Entity::Object(object))
+}
+
+/// Whether the beginning of an object's way to the landmark of a goal shows the landmark, for a body as broad
+/// as the object. True for goals about nothing else.
+pub(crate) fn shows_its_landmark_soon(scene: &Scene, goal: Goal) -> bool {
+    let (Some(object), Some(landmark)) = (object_of(goal), goal.landmark()) else { return true };
+    let map = Map::new(scene.layout);
+    let from = scene.objects[object.index()].start.position;
+    let to = LANDMARKS[landmark];
+    let width = 2.0 * scene.physics().object_radii[object.index()];
+    let way = map.route(from, to, width, map.gaps(), IMPASSABLE_COST);
+    way.is_some_and(|way| landmark_lead(from, way.at(from, to, SOON), landmark) >= MIN_LANDMARK_LEAD)
 }
 
 /// Whether agent 1 sees an object at the start that it is to carry to a room beside, and is near it.

@@ -3,9 +3,12 @@
 use phase_model::{
     AgentSpec, Attitude, Entity, Layout, Scene, Sight, Vec2,
     arena::LANDMARKS,
+    layout::room_of,
     random::{Purpose, stream},
 };
+use phase_navigation::{IMPASSABLE_COST, Map};
 use phase_perception::sees;
+use phase_predicates::landmark_lead;
 use phase_sampler::{About, Contrast, ContrastRequest, Stance, Starts};
 use std::collections::BTreeSet;
 
@@ -29,10 +32,11 @@ fn sample(
 fn only_the_stance_of_one_agent_differs() {
     let layouts: Vec<Layout> = Layout::all_used().collect();
     let mut changed = BTreeSet::new();
-    let social = Stance::ALL.map(|stance| (stance, stance.sight()));
-    let social: Vec<Stance> =
-        social.into_iter().filter(|(_, sight)| sight.is_none()).map(|(stance, _)| stance).collect();
-    let cases = [(&social[..], About::Object), (&[Stance::Indifferent, Stance::Hinder], About::Place)];
+    let cases = [
+        (&[Stance::Help, Stance::Hinder, Stance::Indifferent][..], About::Object),
+        (&[Stance::Same, Stance::Rival, Stance::Indifferent], About::Object),
+        (&[Stance::Indifferent, Stance::Hinder], About::Place),
+    ];
     for (stances, about) in cases {
         for goal_index in 0..8 {
             let contrast = sample(stances, about, goal_index, &layouts, goal_index as u64).unwrap();
@@ -59,6 +63,34 @@ fn only_the_stance_of_one_agent_differs() {
         }
     }
     assert_eq!(changed.len(), 2, "either agent is the changed one at times");
+}
+
+/// Who is helped or hindered sees its object and is by it, the other agent is farther by 4 u and comes later,
+/// and the first 8 u of the object's way show the landmark by 3 u.
+#[test]
+fn who_is_helped_or_hindered_can_show_what_it_wants_first() {
+    let layouts: Vec<Layout> = Layout::all_used().collect();
+    for goal_index in 0..8 {
+        let stances = [Stance::Help, Stance::Hinder];
+        let contrast = sample(&stances, About::Object, goal_index, &layouts, goal_index as u64).unwrap();
+        let scene = &contrast.scenes[0];
+        let (late, early) = (contrast.changed, contrast.changed.other());
+        let goal = scene.agents[early].goal;
+        let (object, landmark) = (goal.subject(), goal.landmark().expect("the object is wanted on a landmark"));
+        let state = scene.initial_state();
+        let place = state.position(object);
+        let [late, near] = [late, early].map(|agent| state.position(Entity::Agent(agent)).distance(place));
+        assert!(near <= 8.0 && near + 4.0 <= late && late <= 14.0, "{near}, {late}");
+        assert_eq!(room_of(place), room_of(state.position(Entity::Agent(early))));
+        assert!(sees(&scene.physics(), &state, early, object));
+        let map = Map::new(scene.layout);
+        let to = LANDMARKS[landmark];
+        let Entity::Object(wanted) = object else { panic!("the goal is about an object") };
+        let width = 2.0 * scene.physics().object_radii[wanted.index()];
+        let way = map.route(place, to, width, map.gaps(), IMPASSABLE_COST).expect("there is a way");
+        let shown = landmark_lead(place, way.at(place, to, 8.0), landmark);
+        assert!(shown >= 3.0, "{shown}");
+    }
 }
 
 #[test]

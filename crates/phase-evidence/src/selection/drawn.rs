@@ -15,6 +15,7 @@ use crate::{
     search::{self, FirstLook},
 };
 use phase_model::{AgentId, AgentSpec, Entity, EventKind, Goal, ObjectId, Scene, Sight, Sign, State};
+use phase_predicates::lead::MIN_LANDMARK_LEAD;
 
 /// Least approach of an agent to its goal (u).
 const MIN_PROGRESS: f32 = 3.0;
@@ -34,9 +35,6 @@ pub(super) const MIN_ATTEMPT: usize = 8;
 /// Least distance by which each of two competitors gets the object its way (u). In each of six recordings of
 /// 25 s it is 14 u or more.
 pub(super) const MIN_FAVOUR: f32 = 3.0;
-/// Least lead by which motion [shows the landmark](clarity::landmark_shown) of a goal (u). In each of 46
-/// recordings with such goals it is 4.4 u or more.
-pub(super) const MIN_SHOWN: f32 = 3.0;
 /// Longest time for which a hinderer may, in all, carry an object to where the other wants it (steps).
 const MAX_SERVICE: usize = 6;
 /// Approach in a step that is seen as one (u).
@@ -50,29 +48,26 @@ pub(super) fn judge(
     scene: &Scene,
     track: &Track,
     manner: Option<Manner>,
-    landmarks: bool,
 ) -> Result<Option<Counterfactual>, RejectionReason> {
     lively(track)?;
     untied(scene, track)?;
-    // Who hides an object keeps its goal from being seen: that is what such an event shows.
-    let landmarks = Landmarks(landmarks && manner != Some(Manner::Hiding));
     let counterfactual = match scene.kind {
-        EventKind::Helping => Some(helping(scene, track, landmarks)?),
-        EventKind::Hindering => Some(hindering(scene, track, landmarks)?),
+        EventKind::Helping => Some(helping(scene, track)?),
+        EventKind::Hindering => Some(hindering(scene, track, manner)?),
         EventKind::Chasing => Some(chasing(scene, track)?),
         EventKind::Competing => match seeker(scene) {
             Some(seeker) => {
                 searching(scene, track, seeker)?;
                 None
             }
-            None => Some(competing(scene, track, landmarks)?),
+            None => Some(competing(scene, track)?),
         },
         EventKind::Collaborating => {
-            collaborating(scene, track, landmarks)?;
+            collaborating(scene, track)?;
             None
         }
         EventKind::Independent => {
-            independent(scene, track, landmarks)?;
+            independent(scene, track)?;
             None
         }
     };
@@ -111,17 +106,21 @@ pub(super) fn standstill(track: &Track, from: usize) -> usize {
     track.states[from + 1..].iter().take_while(stays).count()
 }
 
-fn helping(scene: &Scene, track: &Track, landmarks: Landmarks) -> Result<Counterfactual, RejectionReason> {
+fn helping(scene: &Scene, track: &Track) -> Result<Counterfactual, RejectionReason> {
     let helper = manner::social_agent(scene);
     let helpee = helper.other();
     pursued(scene, track, helpee)?;
     progressed(scene, track, helpee)?;
     require(tries(track, helpee, scene.agents[helpee].goal), RejectionReason::Aimless)?;
-    landmarks.are_shown(scene, track, helpee)?;
+    shows_its_landmark(scene, track, helpee)?;
     Ok(Counterfactual { idle: helper, judged: helpee, change: CausalEffect::Helped, cut: true })
 }
 
-fn hindering(scene: &Scene, track: &Track, landmarks: Landmarks) -> Result<Counterfactual, RejectionReason> {
+fn hindering(
+    scene: &Scene,
+    track: &Track,
+    manner: Option<Manner>,
+) -> Result<Counterfactual, RejectionReason> {
     let hinderer = manner::social_agent(scene);
     let victim = hinderer.other();
     match scene.agents[victim].goal {
@@ -133,7 +132,10 @@ fn hindering(scene: &Scene, track: &Track, landmarks: Landmarks) -> Result<Count
             let is_about_a_place = object_of(goal).is_none();
             require(is_about_a_place || tries(track, victim, goal), RejectionReason::NoContact)?;
             require(!serves(track, hinderer, goal), RejectionReason::Misleading)?;
-            landmarks.are_shown(scene, track, victim)?;
+            // Who hides an object keeps its goal from being seen: that is what such an event shows.
+            if manner != Some(Manner::Hiding) {
+                shows_its_landmark(scene, track, victim)?;
+            }
         }
     }
     Ok(Counterfactual { idle: hinderer, judged: victim, change: CausalEffect::Hindered, cut: true })
@@ -162,12 +164,12 @@ fn serves(track: &Track, hinderer: AgentId, goal: Goal) -> bool {
 }
 
 /// Both get the object their way: a viewer sees two aims, not two who carry together.
-fn competing(scene: &Scene, track: &Track, landmarks: Landmarks) -> Result<Counterfactual, RejectionReason> {
+fn competing(scene: &Scene, track: &Track) -> Result<Counterfactual, RejectionReason> {
     let least = contest::favours(track, scene.goals()).into_iter().fold(f32::INFINITY, f32::min);
     let counterfactual = kinds::competing(scene, track)?;
     require(least >= MIN_FAVOUR, RejectionReason::Uncontested)?;
     for agent in AgentId::ALL {
-        landmarks.are_shown(scene, track, agent)?;
+        shows_its_landmark(scene, track, agent)?;
     }
     Ok(counterfactual)
 }
@@ -232,18 +234,18 @@ fn lasting_chase(track: &Track, chaser: AgentId) -> Result<(), RejectionReason> 
     require(2 * away.moving >= last.steps(), RejectionReason::NoFlight)
 }
 
-fn collaborating(scene: &Scene, track: &Track, landmarks: Landmarks) -> Result<(), RejectionReason> {
+fn collaborating(scene: &Scene, track: &Track) -> Result<(), RejectionReason> {
     progressed(scene, track, AgentId::ZERO)?;
-    landmarks.are_shown(scene, track, AgentId::ZERO)?;
+    shows_its_landmark(scene, track, AgentId::ZERO)?;
     let object = object_of(scene.agents[0].goal).unwrap_or(ObjectId::ZERO);
     kinds::shared(track, object)
 }
 
-fn independent(scene: &Scene, track: &Track, landmarks: Landmarks) -> Result<(), RejectionReason> {
+fn independent(scene: &Scene, track: &Track) -> Result<(), RejectionReason> {
     for agent in AgentId::ALL {
         pursued(scene, track, agent)?;
         progressed(scene, track, agent)?;
-        landmarks.are_shown(scene, track, agent)?;
+        shows_its_landmark(scene, track, agent)?;
         if let Some(object) = object_of(scene.agents[agent.other()].goal) {
             let meddled = holding::carried(track, agent, object).steps;
             require(meddled == 0, RejectionReason::Interference)?;
@@ -266,15 +268,8 @@ fn progressed(scene: &Scene, track: &Track, agent: AgentId) -> Result<(), Reject
     require(start - nearest >= MIN_PROGRESS, RejectionReason::NoProgress)
 }
 
-/// Whether motion has to show the landmarks of goals.
-#[derive(Clone, Copy)]
-struct Landmarks(bool);
-
-impl Landmarks {
-    /// Motion shows the landmark of an agent's goal, if it has to and the goal is about one.
-    fn are_shown(self, scene: &Scene, track: &Track, agent: AgentId) -> Result<(), RejectionReason> {
-        let lead = || clarity::landmark_shown(track, scene.agents[agent].goal);
-        let shown = !self.0 || lead().is_none_or(|lead| lead >= f64::from(MIN_SHOWN));
-        require(shown, RejectionReason::Unshown)
-    }
+/// Motion shows the landmark of an agent's goal, if the goal is about one.
+fn shows_its_landmark(scene: &Scene, track: &Track, agent: AgentId) -> Result<(), RejectionReason> {
+    let lead = clarity::landmark_shown(track, scene.agents[agent].goal);
+    require(lead.is_none_or(|lead| lead >= f64::from(MIN_LANDMARK_LEAD)), RejectionReason::Unshown)
 }

@@ -71,6 +71,23 @@ fn chasing(scene: &Scene, track: &Track) -> Result<Counterfactual, RejectionReas
     Ok(Counterfactual { idle: chaser.other(), judged: chaser, change: CausalEffect::Hindered, cut: false })
 }
 
+/// The agent without which an event would tell most about its kind: who helps or hinders, who flees, or who
+/// wins, and agent 1 if nobody does. `None` for collaborating and independent agents.
+#[must_use]
+pub fn decisive_agent(scene: &Scene, track: &Track) -> Option<AgentId> {
+    match scene.kind {
+        EventKind::Helping | EventKind::Hindering => Some(manner::social_agent(scene)),
+        EventKind::Chasing => Some(chaser(scene).other()),
+        EventKind::Competing => Some(winner(scene, track).unwrap_or(AgentId::ONE)),
+        EventKind::Collaborating | EventKind::Independent => None,
+    }
+}
+
+/// Who reaches its goal; of two, the first agent.
+fn winner(scene: &Scene, track: &Track) -> Option<AgentId> {
+    AgentId::ALL.into_iter().find(|&it| GoalOutcome::of(track, scene.agents[it].goal).reached)
+}
+
 /// Both reach the object; one wins, or they fight over it. Without the winner the loser would have won.
 pub(super) fn competing(scene: &Scene, track: &Track) -> Result<Counterfactual, RejectionReason> {
     let object = object_of(scene.agents[0].goal).unwrap_or(ObjectId::ZERO);
@@ -78,7 +95,7 @@ pub(super) fn competing(scene: &Scene, track: &Track) -> Result<Counterfactual, 
         pursued(scene, track, agent)?;
         require(touches(track, agent, object) > 0, RejectionReason::Uncontested)?;
     }
-    let winner = AgentId::ALL.into_iter().find(|&it| GoalOutcome::of(track, scene.agents[it].goal).reached);
+    let winner = winner(scene, track);
     let fought = holding::carried_together(track, object).steps;
     require(winner.is_some() || fought >= MIN_CONTESTED_STEPS, RejectionReason::Uncontested)?;
     let winner = winner.unwrap_or(AgentId::ONE);

@@ -3,6 +3,7 @@
 use super::{common::object_of, drawn};
 use crate::{Clarity, Track, clarity, contest, manner, rest};
 use phase_model::{EventKind, Scene};
+use phase_predicates::lead::MIN_LANDMARK_LEAD;
 
 /// A limit of a quantity, which is itself allowed.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -80,7 +81,7 @@ impl Quantity {
             Self::KnotAtEnd => Limit::AtMost(0.0),
             Self::Trying => Limit::AtLeast(drawn::MIN_ATTEMPT as f32),
             Self::Favour => Limit::AtLeast(drawn::MIN_FAVOUR),
-            Self::Shown => Limit::AtLeast(drawn::MIN_SHOWN),
+            Self::Shown => Limit::AtLeast(MIN_LANDMARK_LEAD),
         }
     }
 

@@ -16,6 +16,7 @@ use phase_event::Event;
 use phase_model::{AgentId, Attitude, Entity, Goal, Scene, Sign};
 use serde::{Deserialize, Serialize};
 
+pub use kinds::decisive_agent;
 pub use limits::{Limit, Quantity};
 
 /// Minimum duration for something to be seen (steps): three quarters of a second of video.
@@ -194,9 +195,6 @@ pub enum Ending {
     Drawn {
         /// The manner that has to be seen, if any.
         manner: Option<Manner>,
-        /// Whether motion has to show the landmarks of the agents' goals, except where the manner is
-        /// [hiding](Manner::Hiding).
-        landmarks: bool,
     },
 }
 
@@ -223,7 +221,7 @@ pub fn check_event(
             common::check_rest_at_end(scene, track)?;
             kinds::judge(scene, track)
         }
-        Ending::Drawn { manner, landmarks } => drawn::judge(scene, track, manner, landmarks),
+        Ending::Drawn { manner } => drawn::judge(scene, track, manner),
     }
 }
 

@@ -12,7 +12,7 @@ use phase_evidence::{
 use phase_model::{Attitude, Awareness, EventKind, Goal, LandmarkId, ObjectId, Scene, Sight, Sign};
 use proptest::prelude::*;
 
-const ENDING: Ending = Ending::Drawn { manner: None, landmarks: true };
+const ENDING: Ending = Ending::Drawn { manner: None };
 /// Every event of these tests is this long (steps).
 const LENGTH: usize = 80;
 

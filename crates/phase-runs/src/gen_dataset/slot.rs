@@ -318,8 +318,7 @@ impl<'a> Watch<'a> {
 }
 
 /// Requirements on an event of a variant: its length (steps), and its ending. One of a set may show its
-/// label in any manner, and need not show landmarks: all events of a set have to show their labels, which few
-/// stages allow.
+/// label in any manner: all events of a set have to show their labels, which few stages allow.
 pub(crate) fn required(
     selection: &Selection,
     variant: Variant,
@@ -327,7 +326,7 @@ pub(crate) fn required(
 ) -> (RangeInclusive<usize>, Ending) {
     let ending = match selection.ends {
         Ends::Settled | Ends::AdversarialDrawn => Ending::Settled,
-        Ends::Drawn => Ending::Drawn { manner: manner_of(variant).filter(|_| !of_set), landmarks: !of_set },
+        Ends::Drawn => Ending::Drawn { manner: manner_of(variant).filter(|_| !of_set) },
     };
     (selection.min_steps..=selection.max_steps, ending)
 }
