@@ -1,4 +1,4 @@
-//! How plainly a place on a body's way tells the landmark that it is moved to.
+//! The lead of a landmark: how plainly a place on a body's way tells that the body is moved to it.
 
 use phase_model::{LandmarkId, Vec2, arena::LANDMARKS};
 
@@ -22,7 +22,8 @@ pub const MIN_LANDMARK_LEAD: f32 = 3.0;
 /// ```
 #[must_use]
 pub fn landmark_lead(start: Vec2, place: Vec2, wanted: LandmarkId) -> f32 {
-    let gain = |landmark: LandmarkId| start.distance(LANDMARKS[landmark]) - place.distance(LANDMARKS[landmark]);
+    let gain =
+        |landmark: LandmarkId| start.distance(LANDMARKS[landmark]) - place.distance(LANDMARKS[landmark]);
     let others = LandmarkId::ALL.into_iter().filter(|&other| other != wanted);
     gain(wanted) - others.map(gain).fold(f32::NEG_INFINITY, f32::max)
 }

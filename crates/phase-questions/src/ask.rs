@@ -12,10 +12,7 @@ use crate::{
     facts::nearer,
     query::{clear_room, room_value},
 };
-use phase_evidence::{
-    Effect, GoalOutcome, Track,
-    selection::decisive_agent,
-};
+use phase_evidence::{Effect, GoalOutcome, Track, selection::decisive_agent};
 use phase_model::{AgentId, Entity, Goal, ObjectId, RoomId, Scene, Sight, Sign, State, layout::room_of};
 use phase_perception::observed_set;
 use serde_json::{Value, json};

@@ -76,7 +76,8 @@ fn who_is_helped_or_hindered_can_show_what_it_wants_first() {
         let scene = &contrast.scenes[0];
         let (late, early) = (contrast.changed, contrast.changed.other());
         let goal = scene.agents[early].goal;
-        let (object, landmark) = (goal.subject(), goal.landmark().expect("the object is wanted on a landmark"));
+        let (object, landmark) =
+            (goal.subject(), goal.landmark().expect("the object is wanted on a landmark"));
         let state = scene.initial_state();
         let place = state.position(object);
         let [late, near] = [late, early].map(|agent| state.position(Entity::Agent(agent)).distance(place));

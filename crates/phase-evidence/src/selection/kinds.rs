@@ -83,7 +83,7 @@ pub fn decisive_agent(scene: &Scene, track: &Track) -> Option<AgentId> {
     }
 }
 
-/// Who reaches its goal; of two, the first agent.
+/// The agent that reaches its goal; of two, the first.
 fn winner(scene: &Scene, track: &Track) -> Option<AgentId> {
     AgentId::ALL.into_iter().find(|&it| GoalOutcome::of(track, scene.agents[it].goal).reached)
 }
