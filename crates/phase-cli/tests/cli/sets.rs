@@ -15,8 +15,7 @@ const PRESET: &str = r#"{
   "layouts": {"some": [0, 2, 6]},
   "selection": {"min_steps": 40, "max_steps": 50, "attempts": 400, "ends": "drawn"},
   "sets": [
-    {"stances": ["hinder", "indifferent"], "about": "place", "split": "test", "layouts": "some", "sets": 1},
-    {"stances": ["help", "hinder", "indifferent"], "about": "object", "split": "test", "layouts": "some", "sets": 1}
+    {"stances": ["hinder", "indifferent"], "about": "place", "split": "test", "layouts": "some", "sets": 2}
   ]
 }"#;
 
@@ -43,7 +42,7 @@ fn sets_are_whole_whatever_the_shards() {
     succeed(path, &["verify", "whole", "--replay", "--preset", "sets.json", "--resimulate", "1"]);
 
     let manifest = manifest(&path.join("whole"));
-    assert_eq!((manifest.events.len(), manifest.sets.len()), (5, 2));
+    assert_eq!((manifest.events.len(), manifest.sets.len()), (4, 2));
     for set in &manifest.sets {
         let members: Vec<&EventEntry> =
             manifest.events.iter().filter(|event| event.id.starts_with(&set.id)).collect();
@@ -70,8 +69,8 @@ fn sets_are_whole_whatever_the_shards() {
     }
     let table = fs::read_to_string(path.join("whole/pairs.csv")).expect("a table");
     let lengths: BTreeSet<usize> = table.lines().map(|line| line.split(',').count()).collect();
-    assert_eq!((table.lines().count(), lengths.len()), (1 + 1 + 3, 1));
-    let place = |set: &str| SetPlace { set: set.into(), stance: Stance::Help };
+    assert_eq!((table.lines().count(), lengths.len()), (1 + 1 + 1, 1));
+    let place = |set: &str| SetPlace { set: set.into(), stance: Stance::Hinder };
     assert!(
         manifest
             .events
@@ -109,7 +108,7 @@ fn incomplete_and_impossible_sets_are_refused() {
         ),
         (r#"["hinder", "indifferent"]"#, r#"["hinder"]"#, "two or more different stances"),
         (r#""ends": "drawn""#, r#""ends": "settled""#, "equally long"),
-        (r#""sets": 1}"#, r#""sets": 0}"#, "`sets[0].sets` must be 1 to 1000000, not 0"),
+        (r#""sets": 2}"#, r#""sets": 0}"#, "`sets[0].sets` must be 1 to 1000000, not 0"),
     ] {
         fs::write(path.join("sets.json"), PRESET.replacen(from, to, 1)).expect("written");
         let message = refuse(path, &generate("out", &[]));

@@ -39,8 +39,7 @@ const SETS: &str = r#"{
   "layouts": {"some": [0, 2, 6]},
   "selection": {"min_steps": 40, "max_steps": 50, "attempts": 400, "ends": "drawn"},
   "sets": [
-    {"stances": ["hinder", "indifferent"], "about": "place", "layouts": "some", "sets": 1},
-    {"stances": ["help", "hinder", "indifferent"], "about": "object", "layouts": "some", "sets": 1}
+    {"stances": ["hinder", "indifferent"], "about": "place", "layouts": "some", "sets": 2}
   ]
 }"#;
 
