@@ -40,6 +40,8 @@ pub const BELIEF_NETWORK: Trained = trained!("belief-network.safetensors");
 pub const INTENT_NETWORK: Trained = trained!("intent-network.safetensors");
 /// The policy network of our own minds (docs/explanation/minds.md).
 pub const POLICY: Trained = trained!("policy.safetensors");
+/// The policy network of published minds (docs/explanation/published-minds.md).
+pub const PUBLISHED_POLICY: Trained = trained!("published-policy.safetensors");
 /// The Social-LSTM.
 pub const SOCIAL_LSTM: Trained = trained!("social-lstm.safetensors");
 /// SocialGNN.

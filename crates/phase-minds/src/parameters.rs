@@ -247,6 +247,16 @@ impl MindParameters {
             let PublishedParameters { simulations, searches, .. } = PublishedParameters::default();
             (parameters.simulations, parameters.searches) = (simulations, searches);
         }
+        self.searching()
+    }
+
+    /// These parameters for published minds that search, whatever a network would say. Other minds stay as
+    /// they are.
+    #[must_use]
+    pub const fn searching(mut self) -> Self {
+        if let Self::Published(parameters) = &mut self {
+            parameters.network_alone = false;
+        }
         self
     }
 

@@ -4,6 +4,7 @@ use crate::{
     aim::Aim,
     memo::{Findings, Search, SearchMemo},
     parameters::PublishedParameters,
+    policy::{Features, PolicyNetwork},
     rooms::Rooms,
     rules::Rules,
     search::{self, Task},
@@ -18,6 +19,28 @@ use phase_model::{
 };
 use phase_pomcp::{PomcpError, PomcpSettings};
 use rand::Rng;
+
+/// Visits that the policy network's probabilities are given as.
+const VISITS: f64 = 1000.0;
+
+/// A decision before it is made, as the policy network sees it.
+#[derive(Clone, Debug)]
+pub struct Consideration {
+    /// The subgoal pursued.
+    pub aim: Aim,
+    /// The actions to choose from, at least two.
+    pub actions: Vec<Action>,
+    /// The network's input.
+    pub features: Features,
+}
+
+/// What is to be searched: a subgoal, and the states that propose it.
+struct Question {
+    aim: Aim,
+    roots: Vec<State>,
+    /// All subgoals that were proposed.
+    subgoals: Vec<SubgoalValue>,
+}
 
 /// The mind of one agent of the published simulator. The belief is an argument of every decision.
 #[derive(Clone, Debug)]
@@ -98,23 +121,44 @@ impl Mind {
             RandomNumbers::Original => core::mem::take(&mut self.previous),
         };
         self.drawn = 0;
-        let aims = self.aims(particles);
-        let agent = self.rules.agent;
-        let costs: Vec<f64> = particles.iter().map(|particle| self.cost(particle)).collect();
-        let proposals = proposals(&aims, &costs);
-        let Some(chosen) = pursued(&proposals, agent) else { return Ok((Action::Stop, Thought::IDLE)) };
-        let aim = chosen.aim;
-        let roots: Vec<State> = chosen.particles.iter().map(|&k| particles[k]).collect();
+        let Some(Question { aim, roots, subgoals }) = self.question(particles) else {
+            return Ok((Action::Stop, Thought::IDLE));
+        };
         let Findings { action, evaluations: actions, drawn } = self.search(aim, &roots, seed);
         self.drawn = drawn;
         let thought = Thought {
             subgoal: aim.subgoal(),
-            subgoals: proposals.iter().map(summary).collect(),
+            subgoals,
             plan: if aim == Aim::Stop { Vec::new() } else { vec![aim.subgoal()] },
             actions,
             intents: Vec::new(),
         };
         Ok((action, thought))
+    }
+
+    /// The next decision as the policy network sees it; `None` if there is nothing to choose.
+    /// [`decide`](Self::decide) would search the same actions.
+    #[must_use]
+    pub fn consider(&self, particles: &[State]) -> Option<Consideration> {
+        let Question { aim, roots, .. } = self.question(particles)?;
+        let actions = self.actions(aim, &roots);
+        (actions.len() > 1).then(|| {
+            let features = Features::of(&self.task(aim, &actions, &roots));
+            Consideration { aim, actions, features }
+        })
+    }
+
+    /// The subgoal pursued; `None` without particles.
+    fn question(&self, particles: &[State]) -> Option<Question> {
+        let aims = self.aims(particles);
+        let costs: Vec<f64> = particles.iter().map(|particle| self.cost(particle)).collect();
+        let proposals = proposals(&aims, &costs);
+        let chosen = pursued(&proposals, self.rules.agent)?;
+        Some(Question {
+            aim: chosen.aim,
+            roots: chosen.particles.iter().map(|&k| particles[k]).collect(),
+            subgoals: proposals.iter().map(summary).collect(),
+        })
     }
 
     /// The position at which the last decision has left the original's stream of random numbers, as words
@@ -140,17 +184,21 @@ impl Mind {
         aims
     }
 
+    /// The actions that are compared, in the original's order.
+    fn actions(&self, aim: Aim, roots: &[State]) -> Vec<Action> {
+        let Rules { agent, layout, hindering, .. } = self.rules;
+        let actions = aim.actions(agent, self.parameters.older_actions && hindering, &roots[0]);
+        // The original thinks in the layout before reflection.
+        let mirrored = layout.flip().is_some();
+        actions.iter().map(|&action| if mirrored { action.mirrored() } else { action }).collect()
+    }
+
     fn search(&mut self, aim: Aim, roots: &[State], seed: u64) -> Findings {
-        let Rules { agent, physics, layout, .. } = &self.rules;
-        let actions = aim.actions(*agent, self.parameters.older_actions && self.rules.hindering, &roots[0]);
+        let Rules { agent, physics, .. } = &self.rules;
+        let actions = self.actions(aim, roots);
         if let [only] = *actions {
             return Findings { action: only, evaluations: Vec::new(), drawn: 0 };
         }
-        // The original thinks in the layout before reflection.
-        let actions: Vec<Action> = match layout.flip() {
-            Some(_) => actions.iter().map(|&action| action.mirrored()).collect(),
-            None => actions.to_vec(),
-        };
         let parameters = &self.parameters;
         let actions = &actions;
         let search = Search { agent: *agent, seed, aim, physics, parameters, actions, roots };
@@ -164,8 +212,11 @@ impl Mind {
         found
     }
 
-    /// Searches as often as the parameters say, and adds up what is found.
+    /// Searches as often as the parameters say, and adds up what is found; or asks the network.
     fn evaluate(&self, search: &Search<'_>) -> Findings {
+        if self.parameters.network_alone {
+            return self.estimate(search);
+        }
         match self.parameters.random {
             RandomNumbers::Seeded => self.search_with(search, &mut stream(search.seed, Purpose::Search, 0)),
             RandomNumbers::Original => {
@@ -176,11 +227,27 @@ impl Mind {
         }
     }
 
+    fn task<'a>(&'a self, aim: Aim, actions: &'a [Action], roots: &'a [State]) -> Task<'a> {
+        let Self { rules: Rules { agent, rooms, physics, .. }, imagined, parameters, .. } = self;
+        Task { agent: *agent, aim, actions, roots, rooms, physics, imagined, parameters }
+    }
+
+    /// What the policy network takes a search to find.
+    fn estimate(&self, search: &Search<'_>) -> Findings {
+        let Search { aim, actions, roots, .. } = *search;
+        let features = Features::of(&self.task(aim, actions, roots));
+        let (policy, value) = PolicyNetwork::bundled().evaluate(&features, actions);
+        let visits = |probability: &f64| libm::round(probability * VISITS) as u32;
+        let of_action = |(&action, share)| ActionEvaluation { action, visits: visits(share), value };
+        let evaluations = actions.iter().zip(&policy).map(of_action).collect();
+        let best = policy.iter().zip(actions).rev().max_by(|a, b| a.0.total_cmp(b.0));
+        let action = best.map_or(Action::Stop, |(_, &action)| action);
+        Findings { action, evaluations, drawn: 0 }
+    }
+
     fn search_with(&self, search: &Search<'_>, draws: &mut impl Draws) -> Findings {
-        let Search { agent, aim, parameters, actions, roots, .. } = *search;
-        let rooms = &self.rules.rooms;
-        let imagined = &self.imagined;
-        let task = Task { agent, aim, actions, roots, rooms, imagined, parameters };
+        let Search { aim, parameters, actions, roots, .. } = *search;
+        let task = self.task(aim, actions, roots);
         let nothing = |&action: &Action| ActionEvaluation { action, visits: 0, value: 0.0 };
         let mut evaluations: Vec<ActionEvaluation> = actions.iter().map(nothing).collect();
         let mut action = Action::Stop;

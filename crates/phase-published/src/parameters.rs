@@ -39,6 +39,10 @@ pub struct PublishedParameters {
     pub strongest_coasts: bool,
     /// The source of the random numbers of searches.
     pub random: RandomNumbers,
+    /// Whether the policy network says what a search would choose, in its place. Simulations, searches and
+    /// rollouts are then of no account.
+    #[serde(default, skip_serializing_if = "core::ops::Not::not")]
+    pub network_alone: bool,
 }
 
 impl Default for PublishedParameters {
@@ -56,6 +60,7 @@ impl Default for PublishedParameters {
             older_actions: false,
             strongest_coasts: false,
             random: RandomNumbers::Seeded,
+            network_alone: false,
         }
     }
 }

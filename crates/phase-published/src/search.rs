@@ -2,7 +2,7 @@
 
 use crate::{aim::Aim, parameters::PublishedParameters, rooms::Rooms, stream::Draws};
 use phase_forward::Imagined;
-use phase_model::{AGENT_COUNT, Action, AgentId, Entity, MAX_OBJECTS, ObjectId, State, Vec2};
+use phase_model::{AGENT_COUNT, Action, AgentId, Entity, MAX_OBJECTS, ObjectId, PhysicsConfig, State, Vec2};
 
 /// The task of a search.
 #[derive(Clone, Copy, Debug)]
@@ -13,6 +13,7 @@ pub(crate) struct Task<'a> {
     /// The possible states, all equally likely.
     pub(crate) roots: &'a [State],
     pub(crate) rooms: &'a Rooms,
+    pub(crate) physics: &'a PhysicsConfig,
     pub(crate) imagined: &'a Imagined,
     pub(crate) parameters: &'a PublishedParameters,
 }

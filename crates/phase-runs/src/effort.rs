@@ -1,7 +1,9 @@
 //! Physics engine, length of events and search effort of agents, as somebody asked for them.
 
 use crate::error::RunError;
-use phase_minds::{Foresight, MindKind, MindParameters, PhaseParameters, Prior, Recorder};
+use phase_minds::{
+    Foresight, MindKind, MindParameters, PhaseParameters, Prior, PublishedParameters, Recorder,
+};
 use phase_sim::{Engine, SimulationSettings};
 use phase_simple::Simple;
 
@@ -98,11 +100,16 @@ impl Effort {
             minds = with_foresight(minds, foresight)?;
         }
         if let Some(prior) = self.prior {
-            let MindParameters::Phase(phase) = minds else {
-                let rule = "published minds have priors of their own";
-                return Err(RunError::Usage(format!("--prior {}: {rule}", prior.name())));
+            minds = match (minds, prior) {
+                (MindParameters::Phase(phase), _) => PhaseParameters { prior, ..phase }.into(),
+                (MindParameters::Published(published), Prior::NetworkAlone) => {
+                    PublishedParameters { network_alone: true, ..published }.into()
+                }
+                (MindParameters::Published(_), Prior::Habits | Prior::Network) => {
+                    let rule = "published minds search without priors, or take `network-alone`";
+                    return Err(RunError::Usage(format!("--prior {}: {rule}", prior.name())));
+                }
             };
-            minds = PhaseParameters { prior, ..phase }.into();
         }
         if let Some(particles) = self.particles {
             minds = minds.with_particles(particles as usize);
@@ -161,8 +168,11 @@ pub fn description(settings: &SimulationSettings) -> String {
         MindParameters::Phase(phase) => {
             format!(", foresight {}, prior {}", phase.foresight.name(), phase.prior.name())
         }
-        MindParameters::Published(_) if minds.foresees_collisions() => String::new(),
-        MindParameters::Published(_) => ", without collisions".to_owned(),
+        MindParameters::Published(published) => {
+            let bodies = if published.collisions { "" } else { ", without collisions" };
+            let prior = if published.network_alone { ", prior network-alone" } else { "" };
+            format!("{bodies}{prior}")
+        }
     };
     let turns = if *one_way_turns { ", one-way turns" } else { "" };
     let stops = if settings.strongest_coasts { ", coasting strongest" } else { "" };

@@ -45,8 +45,9 @@ fn what_minds_of_a_kind_do_not_have_is_refused() {
         assert!(error.starts_with(&format!("--foresight {}: ", foresight.name())), "{error}");
     }
     let published = Effort { minds: minds(MindKind::Published), ..Effort::default() };
-    let error = Effort { prior: Some(Prior::Network), ..published }.settings().expect_err("other priors");
-    assert_eq!(error.to_string(), "--prior network: published minds have priors of their own");
+    let error = Effort { prior: Some(Prior::Network), ..published }.settings().expect_err("no priors");
+    let rule = "--prior network: published minds search without priors, or take `network-alone`";
+    assert_eq!(error.to_string(), rule);
     let effort = published;
     let given = MindParameters::of(MindKind::Phase);
     let error = effort.settings_with(given).expect_err("two kinds").to_string();
@@ -68,6 +69,7 @@ fn settings_that_differ_read_differently() {
         Effort { foresight: Some(Foresight::Points), ..base },
         Effort { minds: minds(MindKind::Published), ..base },
         Effort { minds: minds(MindKind::Published), foresight: Some(Foresight::Points), ..base },
+        Effort { minds: minds(MindKind::Published), prior: Some(Prior::NetworkAlone), ..base },
         Effort { minds: MindChoice { one_way_turns: true, ..base.minds }, ..base },
         Effort { minds: MindChoice { strongest_coasts: true, ..base.minds }, ..base },
     ];

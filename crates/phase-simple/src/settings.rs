@@ -82,10 +82,21 @@ pub struct ImaginedAgents {
 }
 
 impl ImaginedAgents {
-    /// The agents of a kind of minds for an inference, which searches less than an agent that acts; published
-    /// ones with their recorder's turns.
+    /// The agents of a kind of minds for inverse planning: our own search less than agents that act, published
+    /// ones ask the policy network; the latter have their recorder's defects.
     #[must_use]
     pub fn of(kind: MindKind) -> Self {
+        let mut agents = Self::searching(kind);
+        if let MindParameters::Published(parameters) = &mut agents.minds {
+            parameters.network_alone = true;
+        }
+        agents
+    }
+
+    /// The agents of a kind of minds for an inference in which they all search, though less than agents that
+    /// act; published ones with their recorder's defects.
+    #[must_use]
+    pub fn searching(kind: MindKind) -> Self {
         match kind {
             MindKind::Phase => MindParameters::of(kind).with_simulations(SIMULATIONS).into(),
             MindKind::Published => {
@@ -220,7 +231,7 @@ impl InferenceSettings {
             strengths,
             ..ChainSettings::resynchronised(update)
         })
-        .with_agents(ImaginedAgents::of(MindKind::Published))
+        .with_agents(ImaginedAgents::searching(MindKind::Published))
     }
 
     /// Inverse planning that averages over our own minds and the published simulator's.

@@ -29,10 +29,12 @@
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 
+mod choice;
 mod dense;
 mod error;
 mod file;
 
+pub use choice::ChoiceNetwork;
 pub use dense::{Dense, relu, vector};
 pub use error::TensorsError;
 pub use file::{NamedTensor, TensorFile, check_shape, write};

@@ -10,7 +10,7 @@ use crate::search_model::{SearchModel, SearchState};
 pub use features::{Features, OF_ACTION, SHARED};
 use phase_model::{Action, Dynamics};
 use phase_statistics::log_softmax;
-use phase_tensors::{Dense, TensorFile, TensorsError, check_shape, relu};
+use phase_tensors::{ChoiceNetwork, TensorFile, TensorsError};
 use std::sync::LazyLock;
 
 /// The value of the field `format` of the file's metadata.
@@ -18,20 +18,9 @@ pub const POLICY_FORMAT: &str = "phase-policy/1";
 /// Most particles of which features are averaged; they are evenly spaced among all.
 const SUMMARISED: usize = 2;
 
-/// A network that scores each action of a decision by the same weights.
-///
-/// The features that all actions share are embedded. A hidden layer adds up what the embedding and the
-/// action's own features say; another one and the output make a logit of it. Every layer but the outputs is
-/// followed by max(0, ·). The value comes from the embedding.
+/// The network that says what a search by a mind of this kind would choose, and the value that it would find.
 #[derive(Clone, PartialEq, Debug)]
-pub struct PolicyNetwork {
-    embedding: Dense,
-    context: Dense,
-    action: Dense,
-    hidden: Dense,
-    output: Dense,
-    value: Dense,
-}
+pub struct PolicyNetwork(ChoiceNetwork);
 
 /// The network's answer to a decision.
 #[derive(Clone, PartialEq, Debug)]
@@ -61,47 +50,16 @@ impl PolicyNetwork {
     /// [`TensorsError`] for bytes that are not such a file, and tensors that are missing or of another shape.
     pub fn from_safetensors(bytes: &[u8]) -> Result<Self, TensorsError> {
         let file = TensorFile::open_as(bytes, "format", POLICY_FORMAT)?;
-        let layer = |name| Dense::read(&file, name);
-        let network = Self {
-            embedding: layer("embedding")?,
-            context: layer("context")?,
-            action: layer("action")?,
-            hidden: layer("hidden")?,
-            output: layer("output")?,
-            value: layer("value")?,
-        };
-        let Self { embedding, context, action, hidden, output, value } = &network;
-        for (name, layer, inputs, outputs) in [
-            ("embedding.weight", embedding, SHARED, embedding.outputs),
-            ("context.weight", context, embedding.outputs, context.outputs),
-            ("action.weight", action, OF_ACTION, context.outputs),
-            ("hidden.weight", hidden, context.outputs, hidden.outputs),
-            ("output.weight", output, hidden.outputs, 1),
-            ("value.weight", value, embedding.outputs, 1),
-        ] {
-            check_shape(name, &[outputs, inputs], &[layer.outputs, layer.inputs])?;
-        }
-        Ok(network)
+        ChoiceNetwork::read(&file, SHARED, OF_ACTION).map(Self)
     }
 
     /// The policy among some actions, and the value, that a search would find.
     #[must_use]
     pub fn evaluate(&self, features: &Features, actions: &[Action]) -> Evaluation {
-        let doubles = |features: &[f32]| -> Vec<f64> { features.iter().map(|&it| it.into()).collect() };
-        let only = |outputs: Vec<f64>| outputs.first().copied().unwrap_or_default();
-        let embedded = relu(self.embedding.apply(&doubles(&features.shared)));
-        let context = self.context.apply(&embedded);
-        let logit = |action: &Action| {
-            let mut sums = self.action.apply(&doubles(&features.actions[action.index()]));
-            sums.iter_mut().zip(&context).for_each(|(sum, context)| *sum += context);
-            only(self.output.apply(&relu(self.hidden.apply(&relu(sums)))))
-        };
-        let mut logs: Vec<f64> = actions.iter().map(logit).collect();
+        let options = actions.iter().map(|action| &features.actions[action.index()][..]);
+        let (mut logs, value) = self.0.evaluate(&features.shared, options);
         log_softmax(&mut logs);
-        Evaluation {
-            policy: logs.into_iter().map(libm::exp).collect(),
-            value: only(self.value.apply(&embedded)),
-        }
+        Evaluation { policy: logs.into_iter().map(libm::exp).collect(), value }
     }
 }
 

@@ -16,6 +16,8 @@ pub enum Train {
     IntentNetwork(NetworkOptions),
     /// The policy network of our own minds: what a search would choose, learnt from the searches of events
     Policy(NetworkOptions),
+    /// The policy network of published minds, with searches of 1000 simulations in the states of any events
+    PublishedPolicy(NetworkOptions),
     /// A baseline for beliefs: in which room each agent believes what it does not see
     BeliefNetwork(NetworkOptions),
     /// 2-Level LSTM, a baseline for goals and relations
@@ -84,6 +86,7 @@ impl Train {
             Self::Strength(options) => (Trainee::Strength, options, None),
             Self::IntentNetwork(it) => (Trainee::IntentNetwork, &it.options, it.rounds),
             Self::Policy(it) => (Trainee::Policy, &it.options, it.rounds),
+            Self::PublishedPolicy(it) => (Trainee::PublishedPolicy, &it.options, it.rounds),
             Self::BeliefNetwork(it) => (Trainee::Beliefs, &it.options, it.rounds),
             Self::TwoLevelLstm(it) => (Trainee::TwoLevelLstm, &it.options, it.rounds),
             Self::Arg(it) => (Trainee::Arg, &it.options, it.rounds),

@@ -5,6 +5,7 @@
 mod belief;
 mod common;
 mod decide;
+mod policy;
 mod rooms;
 mod rules;
 mod senses;

@@ -17,7 +17,7 @@ use phase_baselines::{
     forecasting,
     intent_network::{self, IntentNetwork, LabelledIntents},
     nodes::Nodes,
-    policy::{self, Decisions, PolicyNetwork},
+    policy::{self, Decisions, OurMinds, PolicyNetwork, PublishedMinds, Searchers},
     recognition::{self, LabelledEvent},
     social_gnn::{self, SocialGnn},
     social_lstm::SocialLstm,
@@ -25,7 +25,6 @@ use phase_baselines::{
     two_level_lstm::TwoLevelLstm,
 };
 use phase_event::{BeliefOrder, ObservedEvent, Recording};
-use phase_minds::MindParameters;
 use phase_sim::SimulationSettings;
 use serde_json::Value;
 use std::path::PathBuf;
@@ -39,6 +38,8 @@ pub enum Trainee {
     IntentNetwork,
     /// The policy network of our own minds: what a search would choose.
     Policy,
+    /// The policy network of published minds.
+    PublishedPolicy,
     /// The belief network: where agents believe entities to be.
     Beliefs,
     /// 2-Level LSTM, for goals and relations.
@@ -97,7 +98,8 @@ impl Training {
             Trainee::IntentNetwork => {
                 network::run::<IntentNetwork>(self, listener, intent_network::SETTINGS, intents)
             }
-            Trainee::Policy => network::run::<PolicyNetwork>(self, listener, policy::SETTINGS, decisions),
+            Trainee::Policy => self.policy::<OurMinds>(listener),
+            Trainee::PublishedPolicy => self.policy::<PublishedMinds>(listener),
             Trainee::Beliefs => {
                 network::run::<BeliefNetwork>(self, listener, belief_network::SETTINGS, beliefs)
             }
@@ -109,6 +111,10 @@ impl Training {
             Trainee::SocialLstm => network::run::<SocialLstm>(self, listener, forecasting::SETTINGS, nodes),
             Trainee::Stgat => network::run::<Stgat>(self, listener, forecasting::SETTINGS, nodes),
         }
+    }
+
+    fn policy<M: Searchers>(&self, listener: &dyn Listener) -> Result<Trained, RunError> {
+        network::run::<PolicyNetwork<M>>(self, listener, policy::SETTINGS, decisions::<M>)
     }
 }
 
@@ -124,15 +130,13 @@ fn beliefs(recording: &Recording, observed: &ObservedEvent) -> Result<LabelledBe
     Ok(LabelledBeliefs::new(observed, truth.beliefs()))
 }
 
-fn decisions(recording: &Recording, observed: &ObservedEvent) -> Result<Decisions, TrainError> {
+fn decisions<M: Searchers>(recording: &Recording, observed: &ObservedEvent) -> Result<Decisions, TrainError> {
     let id = || recording.id.clone();
     let simulation = recording.simulation.as_ref().ok_or_else(|| TrainError::NoThoughts { id: id() })?;
     let settings = SimulationSettings::read(&simulation.settings, "settings")
         .map_err(|source| TrainError::Settings { id: id(), source })?;
-    let MindParameters::Phase(parameters) = settings.minds else {
-        return Err(TrainError::NoThoughts { id: id() });
-    };
-    Decisions::of(&simulation.event, observed, parameters)
+    let parameters = M::parameters(&settings.minds).ok_or_else(|| TrainError::NoThoughts { id: id() })?;
+    Decisions::of::<M>(&simulation.event, observed, &parameters)
         .map_err(|source| TrainError::Search { id: id(), source })
 }
 

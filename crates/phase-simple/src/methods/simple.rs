@@ -100,7 +100,11 @@ impl Simple {
             let alone = InferenceSettings { latent_knowledge, ..InferenceSettings::default() };
             let settings = if self.settings.alternative.is_some() { alone } else { self.settings };
             let agents = self.settings.agents;
-            let one_kind = agents.with_minds(ImaginedAgents::of(kind).minds);
+            let imagined = match settings.algorithm {
+                Algorithm::InversePlanning(_) => ImaginedAgents::of(kind),
+                Algorithm::Chains(_) => ImaginedAgents::searching(kind),
+            };
+            let one_kind = agents.with_minds(imagined.minds);
             self.settings = settings.with_agents(one_kind);
             if !agents.minds.foresees_collisions() {
                 self.settings = self.settings.without_collisions();
@@ -122,14 +126,14 @@ impl Simple {
         self
     }
 
-    /// SIMPLE whose imagined minds make so many simulations a decision, in the range
+    /// SIMPLE whose imagined minds all search, and make so many simulations a decision, in the range
     /// [`phase_minds::SIMULATIONS`].
     #[must_use]
     pub const fn with_simulations(mut self, simulations: usize) -> Self {
         let agents = &mut self.settings.agents;
-        agents.minds = agents.minds.with_simulations(simulations);
+        agents.minds = agents.minds.with_simulations(simulations).searching();
         if let Some(AlternativeAgents { agents, .. }) = &mut self.settings.alternative {
-            agents.minds = agents.minds.with_simulations(simulations);
+            agents.minds = agents.minds.with_simulations(simulations).searching();
         }
         self
     }

@@ -103,15 +103,16 @@ fn settings(arguments: &FitInference) -> Result<InferenceSettings, RunError> {
     let given = arguments.parameters.as_deref().map(parameters::read).transpose()?;
     let mut settings = match (given, arguments.minds) {
         (Some(minds), _) => {
-            let agents = ImaginedAgents::of(minds.kind());
+            let agents = ImaginedAgents::searching(minds.kind());
             one.with_agents(agents.with_minds(minds.with_simulations(agents.minds.simulations())))
         }
         (None, Some(kind)) => one.with_agents(ImaginedAgents::of(kind)),
         (None, None) => InferenceSettings::averaged(),
     };
     if let Some(simulations) = arguments.simulations {
-        let searching =
-            |agents: ImaginedAgents| agents.with_minds(agents.minds.with_simulations(simulations as usize));
+        let searching = |agents: ImaginedAgents| {
+            agents.with_minds(agents.minds.with_simulations(simulations as usize).searching())
+        };
         settings.agents = searching(settings.agents);
         let alternative = settings.alternative;
         settings.alternative = alternative.map(|it| AlternativeAgents { agents: searching(it.agents), ..it });
