@@ -25,7 +25,7 @@ fn open(place: (f32, f32, f32), goal: Goal, other: f32) -> Scene {
 /// The network that comes with the program is whole, and its policy is that of the decisions.
 #[test]
 fn the_network_alone_reports_its_policy_as_visits() {
-    for goal in [on_landmark(ME, LandmarkId::TOP_RIGHT), ball_on(LandmarkId::TOP_LEFT)] {
+    for goal in [on_landmark(ME, LandmarkId::TOP_RIGHT), ball_on(LandmarkId::BOTTOM_RIGHT)] {
         let scene = open((23.5, 12.0, 0.4), goal, 0.0);
         let Consideration { actions, features, .. } = considered(&scene);
         let (policy, value) = PolicyNetwork::bundled().evaluate(&features, &actions);
@@ -47,7 +47,7 @@ fn the_network_steers_to_the_goal() {
     for (angle, wrong) in
         [(0.0, None), (-FRAC_PI_2, Some(Action::TurnRight)), (FRAC_PI_2, Some(Action::TurnLeft))]
     {
-        let scene = open((23.5, 18.5, angle), on_landmark(ME, LandmarkId::TOP_RIGHT), 0.0);
+        let scene = open((23.5, 12.0, angle), on_landmark(ME, LandmarkId::TOP_RIGHT), 0.0);
         let Consideration { actions, features, .. } = considered(&scene);
         let (policy, _) = PolicyNetwork::bundled().evaluate(&features, &actions);
         let of = |action: Action| policy[actions.iter().position(|it| *it == action).unwrap()];
