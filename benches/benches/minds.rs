@@ -6,7 +6,7 @@ use criterion::{BenchmarkId, Criterion, SamplingMode};
 use phase_agent::{Mind, PolicyNetwork};
 use phase_belief::Belief;
 use phase_forward::Forward;
-use phase_minds::{Agent, BeliefView, Contest, PhaseParameters, Prior};
+use phase_minds::{Agent, BeliefView, Contest, MindKind, PhaseParameters, Prior, PublishedParameters};
 use phase_model::{
     Action, AgentId, EventKind, Scene,
     random::{Purpose, stream},
@@ -113,6 +113,21 @@ fn main() {
             let parameters = PhaseParameters { prior, simulations, ..PhaseParameters::default() }.into();
             let mut agent =
                 Agent::new(&scene, &parameters, &observation, None, &mut random).expect("good parameters");
+            let mut search = stream(1, Purpose::Search, 0);
+            bencher.iter(|| agent.decide(&mut search));
+        });
+    }
+    let recorded = PublishedParameters::default();
+    for (name, parameters) in [
+        ("with a search of 1000 simulations", recorded),
+        ("with two of 100", PublishedParameters { simulations: 100, searches: 2, ..recorded }),
+        ("by the network", PublishedParameters { network_alone: true, ..recorded }),
+    ] {
+        criterion.bench_function(&format!("published/one decision {name}"), |bencher| {
+            let mut random = stream(1, Purpose::Belief, 0);
+            let seen = phase_minds::observe(MindKind::Published, &physics, &state, AgentId::ZERO);
+            let mut agent = Agent::new(&scene, &parameters.into(), &seen, Some(&state), &mut random)
+                .expect("good parameters");
             let mut search = stream(1, Purpose::Search, 0);
             bencher.iter(|| agent.decide(&mut search));
         });

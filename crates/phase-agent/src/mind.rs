@@ -24,6 +24,9 @@ use phase_pomcp::{GenerativeModel, Pomcp, PomcpError, PomcpSettings};
 use rand::Rng;
 use std::collections::BTreeMap;
 
+/// Visits that the policy network's probabilities are given as, in place of a search's.
+const VISITS: f64 = 1000.0;
+
 /// One agent's goals and planners, with its own model of the dynamics. The belief is an argument of every
 /// decision, so inference can use a mind with estimated beliefs.
 #[derive(Clone, Debug)]
@@ -369,7 +372,7 @@ impl<D: Dynamics> Mind<D> {
         question: &Question,
         random: &mut impl Rng,
     ) -> Result<(Action, Vec<ActionEvaluation>), PomcpError> {
-        let PhaseParameters { prior, simulations, decisiveness, .. } = self.parameters;
+        let PhaseParameters { prior, decisiveness, .. } = self.parameters;
         let network = match prior {
             Prior::Habits => None,
             Prior::Network | Prior::NetworkAlone => Some(PolicyNetwork::bundled()),
@@ -382,7 +385,7 @@ impl<D: Dynamics> Mind<D> {
                     let evaluation = network.evaluate(&summary(&model, search_states), actions);
                     model.root_prior = evaluation.policy;
                     if prior == Prior::NetworkAlone {
-                        let visits = |p: &f64| (libm::round(p * simulations as f64) as u32, evaluation.value);
+                        let visits = |p: &f64| (libm::round(p * VISITS) as u32, evaluation.value);
                         let found = actions.iter().zip(model.root_prior.iter().map(visits)).map(of_action);
                         return Ok((found.collect(), likeliest(&model.root_prior)));
                     }

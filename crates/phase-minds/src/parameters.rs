@@ -1,7 +1,7 @@
 //! The parameters of each kind of mind, and how they are read.
 
 use crate::ranges;
-use phase_agent::{Foresight, PhaseParameters};
+use phase_agent::{Foresight, PhaseParameters, Prior};
 use phase_model::{
     json::FieldError,
     setting::{RangeError, Setting},
@@ -178,9 +178,10 @@ impl MindParameters {
         self
     }
 
-    /// These parameters with another number of simulations of a search.
+    /// These parameters for a mind that searches, with so many simulations.
     #[must_use]
     pub const fn with_simulations(mut self, simulations: usize) -> Self {
+        self = self.searching();
         match &mut self {
             Self::Phase(parameters) => parameters.simulations = simulations,
             Self::Published(parameters) => parameters.simulations = simulations,
@@ -250,12 +251,33 @@ impl MindParameters {
         self.searching()
     }
 
-    /// These parameters for published minds that search, whatever a network would say. Other minds stay as
-    /// they are.
+    /// These parameters for a mind that takes what a policy network says that a search would choose.
+    #[must_use]
+    pub const fn asking_network(mut self) -> Self {
+        match &mut self {
+            Self::Phase(parameters) => parameters.prior = Prior::NetworkAlone,
+            Self::Published(parameters) => parameters.network_alone = true,
+        }
+        self
+    }
+
+    /// Whether the mind takes what a policy network says, without a search.
+    #[must_use]
+    pub const fn asks_network(&self) -> bool {
+        match self {
+            Self::Phase(parameters) => matches!(parameters.prior, Prior::NetworkAlone),
+            Self::Published(parameters) => parameters.network_alone,
+        }
+    }
+
+    /// These parameters for a mind that searches: one that would ask a network searches without it.
     #[must_use]
     pub const fn searching(mut self) -> Self {
-        if let Self::Published(parameters) = &mut self {
-            parameters.network_alone = false;
+        if self.asks_network() {
+            match &mut self {
+                Self::Phase(parameters) => parameters.prior = Prior::Habits,
+                Self::Published(parameters) => parameters.network_alone = false,
+            }
         }
         self
     }

@@ -99,6 +99,9 @@ impl Effort {
         if let Some(foresight) = self.foresight {
             minds = with_foresight(minds, foresight)?;
         }
+        if let Some(simulations) = self.minds.simulations {
+            minds = minds.with_simulations(simulations as usize);
+        }
         if let Some(prior) = self.prior {
             minds = match (minds, prior) {
                 (MindParameters::Phase(phase), _) => PhaseParameters { prior, ..phase }.into(),
@@ -113,9 +116,6 @@ impl Effort {
         }
         if let Some(particles) = self.particles {
             minds = minds.with_particles(particles as usize);
-        }
-        if let Some(simulations) = self.minds.simulations {
-            minds = minds.with_simulations(simulations as usize);
         }
         if self.minds.original_random && minds.kind() != MindKind::Published {
             return Err(RunError::Usage("--original-random: only published minds have them".into()));

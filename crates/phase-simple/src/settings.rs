@@ -82,15 +82,12 @@ pub struct ImaginedAgents {
 }
 
 impl ImaginedAgents {
-    /// The agents of a kind of minds for inverse planning: our own search less than agents that act, published
-    /// ones ask the policy network; the latter have their recorder's defects.
+    /// The agents of a kind of minds for inverse planning: they ask the policy networks. Published ones have
+    /// their recorder's defects.
     #[must_use]
     pub fn of(kind: MindKind) -> Self {
-        let mut agents = Self::searching(kind);
-        if let MindParameters::Published(parameters) = &mut agents.minds {
-            parameters.network_alone = true;
-        }
-        agents
+        let agents = Self::searching(kind);
+        agents.with_minds(agents.minds.asking_network())
     }
 
     /// The agents of a kind of minds for an inference in which they all search, though less than agents that
@@ -251,16 +248,27 @@ impl InferenceSettings {
         Self { latent_knowledge: true, ..Self::averaged() }
     }
 
+    /// These settings with minds, of every kind that they consider, that search.
+    #[must_use]
+    pub const fn searching(mut self) -> Self {
+        self.agents.minds = self.agents.minds.searching();
+        if let Some(alternative) = &mut self.alternative {
+            alternative.agents.minds = alternative.agents.minds.searching();
+        }
+        self
+    }
+
     /// These settings with these agents and no others.
     #[must_use]
     pub const fn with_agents(self, agents: ImaginedAgents) -> Self {
         Self { agents, alternative: None, ..self }
     }
 
-    /// These settings with minds, of every kind that they consider, in whose search bodies pass through each
-    /// other.
+    /// These settings with minds, of every kind that they consider, that search, and in whose search bodies
+    /// pass through each other.
     #[must_use]
     pub const fn without_collisions(mut self) -> Self {
+        self = self.searching();
         self.agents.minds = self.agents.minds.without_collisions();
         if let Some(alternative) = &mut self.alternative {
             alternative.agents.minds = alternative.agents.minds.without_collisions();
@@ -271,7 +279,7 @@ impl InferenceSettings {
     /// Algorithm 2.
     #[must_use]
     pub fn chains(chains: ChainSettings) -> Self {
-        Self { algorithm: Algorithm::Chains(chains), ..Self::default() }
+        Self { algorithm: Algorithm::Chains(chains), ..Self::default().searching() }
     }
 
     /// Approximate number of ticks of an inference.

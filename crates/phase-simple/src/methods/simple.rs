@@ -100,9 +100,10 @@ impl Simple {
             let alone = InferenceSettings { latent_knowledge, ..InferenceSettings::default() };
             let settings = if self.settings.alternative.is_some() { alone } else { self.settings };
             let agents = self.settings.agents;
-            let imagined = match settings.algorithm {
-                Algorithm::InversePlanning(_) => ImaginedAgents::of(kind),
-                Algorithm::Chains(_) => ImaginedAgents::searching(kind),
+            let imagined = if agents.minds.asks_network() {
+                ImaginedAgents::of(kind)
+            } else {
+                ImaginedAgents::searching(kind)
             };
             let one_kind = agents.with_minds(imagined.minds);
             self.settings = settings.with_agents(one_kind);
@@ -131,9 +132,9 @@ impl Simple {
     #[must_use]
     pub const fn with_simulations(mut self, simulations: usize) -> Self {
         let agents = &mut self.settings.agents;
-        agents.minds = agents.minds.with_simulations(simulations).searching();
+        agents.minds = agents.minds.with_simulations(simulations);
         if let Some(AlternativeAgents { agents, .. }) = &mut self.settings.alternative {
-            agents.minds = agents.minds.with_simulations(simulations).searching();
+            agents.minds = agents.minds.with_simulations(simulations);
         }
         self
     }

@@ -18,7 +18,7 @@ pub(super) struct Variant {
 pub(super) const VARIANTS: [Variant; 11] = [
     Variant { name: "simple", guided: true, settings: InferenceSettings::averaged },
     Variant { name: "simple-knowledge", guided: true, settings: InferenceSettings::averaged_over_knowledge },
-    unguided("simple-unguided", InferenceSettings::averaged),
+    unguided("simple-unguided", || InferenceSettings::averaged().searching()),
     unguided("simple-points", || InferenceSettings::averaged().without_collisions()),
     unguided("simple-initial", || resynchronised(Update::Initial)),
     unguided("simple-global", || resynchronised(Update::Global)),

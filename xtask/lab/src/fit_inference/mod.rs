@@ -110,9 +110,8 @@ fn settings(arguments: &FitInference) -> Result<InferenceSettings, RunError> {
         (None, None) => InferenceSettings::averaged(),
     };
     if let Some(simulations) = arguments.simulations {
-        let searching = |agents: ImaginedAgents| {
-            agents.with_minds(agents.minds.with_simulations(simulations as usize).searching())
-        };
+        let searching =
+            |agents: ImaginedAgents| agents.with_minds(agents.minds.with_simulations(simulations as usize));
         settings.agents = searching(settings.agents);
         let alternative = settings.alternative;
         settings.alternative = alternative.map(|it| AlternativeAgents { agents: searching(it.agents), ..it });
