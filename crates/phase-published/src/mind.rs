@@ -18,8 +18,11 @@ use phase_model::{
     random::{Purpose, stream},
 };
 use phase_pomcp::{PomcpError, PomcpSettings};
-use rand::Rng;
+use rand::{Rng, RngExt};
 
+/// Exponent of the policy network's probabilities in the choice of an action. What one search settles on is
+/// partly chance, but seldom a rarely visited action; the number is that of our own minds' `decisiveness`.
+const DECISIVENESS: f64 = 4.0;
 /// Visits that the policy network's probabilities are given as.
 const VISITS: f64 = 1000.0;
 
@@ -240,8 +243,13 @@ impl Mind {
         let visits = |probability: &f64| libm::round(probability * VISITS) as u32;
         let of_action = |(&action, share)| ActionEvaluation { action, visits: visits(share), value };
         let evaluations = actions.iter().zip(&policy).map(of_action).collect();
-        let best = policy.iter().zip(actions).rev().max_by(|a, b| a.0.total_cmp(b.0));
-        let action = best.map_or(Action::Stop, |(_, &action)| action);
+        let weights: Vec<f64> = policy.iter().map(|p| libm::pow(*p, DECISIVENESS)).collect();
+        let mut left = stream(search.seed, Purpose::Search, 0).random_range(0.0..weights.iter().sum());
+        let drawn = weights.iter().position(|weight| {
+            left -= weight;
+            left < 0.0
+        });
+        let action = drawn.and_then(|drawn| actions.get(drawn)).copied().unwrap_or(Action::Stop);
         Findings { action, evaluations, drawn: 0 }
     }
 

@@ -15,7 +15,7 @@ use crate::{
     guide::Guess,
     ignorance::{Explained, UninformedEvidence},
     intent::{WeightedIntents, joint_logs},
-    physical_goals,
+    physical_goals, settling,
 };
 use core::ops::ControlFlow;
 use phase_model::{AGENT_COUNT, AgentId, Attitude, Goal, Level, Strength};
@@ -344,16 +344,34 @@ impl InversePlanner {
         logs: &[Vec<IntentLog>; AGENT_COUNT],
         guess: Option<&Guess>,
     ) -> Vec<(Hypothesis, f64)> {
+        let joint = self.joint_of_simulated(logs, guess);
+        match guess {
+            Some(guess) => guess.complete(joint),
+            None => joint,
+        }
+    }
+
+    /// The share that the hypotheses with each intent have among all that were simulated.
+    pub(crate) fn shares(
+        &self,
+        logs: &[Vec<IntentLog>; AGENT_COUNT],
+        guess: Option<&Guess>,
+    ) -> [Vec<f64>; AGENT_COUNT] {
+        let joint = self.joint_of_simulated(logs, guess);
+        AgentId::ALL.map(|agent| settling::shares(&joint, agent, logs[agent].iter().map(|it| it.intent)))
+    }
+
+    fn joint_of_simulated(
+        &self,
+        logs: &[Vec<IntentLog>; AGENT_COUNT],
+        guess: Option<&Guess>,
+    ) -> Vec<(Hypothesis, f64)> {
         let weighted_intents: [WeightedIntents; AGENT_COUNT] = AgentId::ALL.map(|agent| {
             let guessed = |intent| guess.map_or(0.0, |guess| guess.log(agent, intent));
             logs[agent].iter().map(|it| (it.intent, it.log + guessed(it.intent))).collect()
         });
         let goals = physical_goals(AgentId::ZERO, self.prepared.observed().object_sizes().len()).len();
-        let joint = joint_logs(&weighted_intents, self.strengths, goals);
-        match guess {
-            Some(guess) => guess.complete(joint),
-            None => joint,
-        }
+        joint_logs(&weighted_intents, self.strengths, goals)
     }
 
     /// Catches up with an intent; whether it could within the budget.

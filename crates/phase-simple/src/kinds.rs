@@ -10,6 +10,7 @@ use crate::{
     intent::WeightedIntents,
     intent_network::IntentReader,
     inverse_planning::{IntentLog, InversePlanner},
+    settling::ShareInKinds,
 };
 use core::ops::ControlFlow;
 use phase_event::ObservedEvent;
@@ -70,6 +71,15 @@ impl Findings {
         let compared = self.compared.as_ref().map(|logs| planner.joint(logs, guess));
         let log_evidence = log_evidence(compared.as_ref().unwrap_or(&joint));
         KindEvidence { joint, log_evidence }
+    }
+
+    fn shares(&self, planner: &InversePlanner, guess: Option<&Guess>) -> [Vec<ShareInKinds>; AGENT_COUNT] {
+        let of = |logs: &[Vec<IntentLog>; AGENT_COUNT]| planner.shares(logs, guess);
+        let own = of(&self.own);
+        let compared = self.compared.as_ref().map_or_else(|| own.clone(), of);
+        let both = |agent: AgentId| own[agent].iter().zip(&compared[agent]);
+        AgentId::ALL
+            .map(|agent| both(agent).map(|(&own, &compared)| ShareInKinds { own, compared }).collect())
     }
 
     /// The findings if the log likelihood of an intent were so many standard errors greater.
@@ -158,12 +168,20 @@ impl Planners {
             both.map(|(planner, findings)| findings.evidence(planner, guess)).collect()
         };
         let present = kinds(&findings);
-        let posterior = mixture(&present).0;
+        let (posterior, probabilities) = mixture(&present);
         let mut unsettled = Vec::new();
         for (kind, of_kind) in findings.iter().enumerate() {
+            let shares = of_kind.shares(&self.planners[kind], guess);
             for agent in AgentId::ALL {
                 for (place, found) in of_kind.own[agent].iter().enumerate() {
                     let changes = |sign: f64| {
+                        // Most intents cannot change much, which is quickly known.
+                        let compared = of_kind.compared.as_ref().unwrap_or(&of_kind.own);
+                        let errors = [found.error, compared[agent][place].error].map(|it| sign * it);
+                        let bound = shares[agent][place].greatest_change(errors, probabilities[kind]);
+                        if bound < tolerated {
+                            return false;
+                        }
                         let mut others = present.clone();
                         others[kind] =
                             of_kind.moved(agent, place, sign).evidence(&self.planners[kind], guess);

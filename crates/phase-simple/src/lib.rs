@@ -75,6 +75,7 @@ mod posterior;
 mod proposal;
 pub mod report_model;
 mod settings;
+mod settling;
 mod simulation_run;
 mod simulations;
 pub mod strength;

@@ -30,13 +30,30 @@ fn the_network_alone_reports_its_policy_as_visits() {
         let Consideration { actions, features, .. } = considered(&scene);
         let (policy, value) = PolicyNetwork::bundled().evaluate(&features, &actions);
         assert!((policy.iter().sum::<f64>() - 1.0).abs() < 1e-12 && value.is_finite());
-        let (action, thought) = mind(&scene).decide(&[scene.initial_state()], &mut random(1)).unwrap();
+        let (_, thought) = mind(&scene).decide(&[scene.initial_state()], &mut random(1)).unwrap();
         assert!(thought.actions.iter().map(|found| found.action).eq(actions.iter().copied()));
         for (found, p) in thought.actions.iter().zip(&policy) {
             assert!((f64::from(found.visits) / 1000.0 - p).abs() <= 0.0005 + 1e-9);
         }
-        let most = policy.iter().copied().fold(0.0, f64::max);
-        assert_eq!(policy[actions.iter().position(|it| *it == action).unwrap()], most);
+    }
+}
+
+/// Actions are drawn in proportion to the fourth power of their probabilities.
+#[test]
+fn actions_are_drawn_by_the_policy() {
+    const DRAWS: usize = 2000;
+    let scene = open((23.5, 12.0, 0.9), on_landmark(ME, LandmarkId::TOP_RIGHT), 0.0);
+    let Consideration { actions, features, .. } = considered(&scene);
+    let (policy, _) = PolicyNetwork::bundled().evaluate(&features, &actions);
+    let weights: Vec<f64> = policy.iter().map(|p| p.powi(4)).collect();
+    let mut mind = mind(&scene);
+    let mut random = random(3);
+    let drawn: Vec<Action> =
+        (0..DRAWS).map(|_| mind.decide(&[scene.initial_state()], &mut random).unwrap().0).collect();
+    for (action, weight) in actions.iter().zip(&weights) {
+        let share = drawn.iter().filter(|it| *it == action).count() as f64 / DRAWS as f64;
+        let expected = weight / weights.iter().sum::<f64>();
+        assert!((share - expected).abs() < 0.04, "{action:?}: {share}, {expected}");
     }
 }
 
