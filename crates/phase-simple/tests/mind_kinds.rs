@@ -15,16 +15,18 @@ use phase_simple::{
 
 /// Steps that are observed.
 const STEPS: usize = 30;
-/// Probability below which the kind of minds that made an event would be rejected.
-const REJECTED: f64 = 0.3;
+/// Seeds of scenes.
+const SEEDS: [u64; 3] = [5, 6, 7];
+/// Share of the events whose true kind is the likelier one.
+const ATTRIBUTED: f64 = 0.75;
 /// Odds for the true kinds in all events together.
 const ODDS: f64 = 9.0;
 
 /// The start of an event of a variant by minds of a kind.
-fn observed(variant: Variant, kind: MindKind) -> ObservedEvent {
+fn observed(variant: Variant, kind: MindKind, seed: u64) -> ObservedEvent {
     let layouts: Vec<Layout> = Layout::all_used().collect();
     let request = Request { variant, goal_index: 0, layouts: &layouts, starts: Starts::Near };
-    let scene = sample(&request, &mut stream(5, Purpose::Scene, 0)).expect("there are such scenes");
+    let scene = sample(&request, &mut stream(seed, Purpose::Scene, 0)).expect("there are such scenes");
     let minds = MindParameters::of(kind).with_simulations(200);
     let settings = SimulationSettings { minds, ..SimulationSettings::default() };
     let event = phase_sim::simulate(&scene, 1, &settings).expect("a sound scene");
@@ -39,23 +41,24 @@ fn probability(inference: &Inference, kind: MindKind) -> f64 {
 /// Both kinds walk alike to a landmark that they see, so that a single start of an event may leave it open.
 #[test]
 fn events_are_attributed_to_the_minds_that_made_them() {
-    let mut log_odds = 0.0;
+    let mut of_truth = Vec::new();
     for variant in [Variant::Carry, Variant::Places] {
-        for kind in MindKind::ALL {
-            let event = observed(variant, kind);
+        for (kind, seed) in MindKind::ALL.into_iter().flat_map(|kind| SEEDS.map(|seed| (kind, seed))) {
+            let event = observed(variant, kind, seed);
             let inference = explain(&event, &UniformStrength, 1, &InferenceSettings::averaged());
-            let of_truth = probability(&inference.expect("is sound"), kind);
-            assert!(of_truth > REJECTED, "{variant:?} by {}: {of_truth}", kind.name());
-            log_odds += (of_truth / (1.0 - of_truth)).ln();
+            of_truth.push(probability(&inference.expect("is sound"), kind));
         }
     }
-    assert!(log_odds > ODDS.ln(), "{log_odds}");
+    let attributed = of_truth.iter().filter(|probability| **probability > 0.5).count();
+    assert!(attributed as f64 >= ATTRIBUTED * of_truth.len() as f64, "{of_truth:?}");
+    let log_odds: f64 = of_truth.iter().map(|probability| (probability / (1.0 - probability)).ln()).sum();
+    assert!(log_odds > ODDS.ln(), "{of_truth:?}");
 }
 
 /// By the law of total probability, P(Y) = Σ P(kind) P(Y | kind).
 #[test]
 fn the_answer_is_the_average_over_kinds() {
-    let event = observed(Variant::Places, MindKind::Phase).prefix(8);
+    let event = observed(Variant::Places, MindKind::Phase, SEEDS[0]).prefix(8);
     let settings = InferenceSettings::averaged();
     let inference = explain(&event, &UniformStrength, 1, &settings).expect("is sound");
     let sum: f64 = inference.minds.iter().map(|kind| kind.probability).sum();
@@ -84,7 +87,7 @@ fn looking_at_all(settings: InferenceSettings) -> InferenceSettings {
 /// An inference with one kind of minds is that kind's part of the average.
 #[test]
 fn one_kind_alone_gives_its_part_of_the_average() {
-    let event = observed(Variant::Carry, MindKind::Published).prefix(8);
+    let event = observed(Variant::Carry, MindKind::Published, SEEDS[0]).prefix(8);
     let both = looking_at_all(InferenceSettings::averaged());
     let average = explain(&event, &UniformStrength, 1, &both).expect("is sound");
     let first = both.with_agents(both.agents);
