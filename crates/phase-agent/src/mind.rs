@@ -6,7 +6,7 @@ use crate::{
     ignorance::{Ignorance, believed, commonest},
     matter::{Consideration, Matter, Question, likeliest, localised, sample, summary_of, target_entity},
     objective::Objective,
-    policy::summary,
+    policy::{VISITS, summary},
     rollout_policy,
     search_model::{SearchModel, SearchState},
     theory::{self, Supposition},
@@ -23,9 +23,6 @@ use phase_planner::{Candidate, Plan, Planner, value};
 use phase_pomcp::{GenerativeModel, Pomcp, PomcpError, PomcpSettings};
 use rand::Rng;
 use std::collections::BTreeMap;
-
-/// Visits that the policy network's probabilities are given as, in place of a search's.
-const VISITS: f64 = 1000.0;
 
 /// One agent's goals and planners, with its own model of the dynamics. The belief is an argument of every
 /// decision, so inference can use a mind with estimated beliefs.

@@ -44,6 +44,7 @@ mod parameters;
 mod phase;
 mod published;
 mod ranges;
+mod searching;
 mod turns;
 
 pub use agent::Agent;

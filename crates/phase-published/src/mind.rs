@@ -37,7 +37,7 @@ pub struct Consideration {
     pub features: Features,
 }
 
-/// What is to be searched: a subgoal, and the states that propose it.
+/// The matter of a search: a subgoal, and the states that propose it.
 struct Question {
     aim: Aim,
     roots: Vec<State>,
@@ -235,7 +235,7 @@ impl Mind {
         Task { agent: *agent, aim, actions, roots, rooms, physics, imagined, parameters }
     }
 
-    /// What the policy network takes a search to find.
+    /// The findings of a search as the policy network takes them to be.
     fn estimate(&self, search: &Search<'_>) -> Findings {
         let Search { aim, actions, roots, .. } = *search;
         let features = Features::of(&self.task(aim, actions, roots));

@@ -15,6 +15,8 @@ use std::sync::LazyLock;
 
 /// The value of the field `format` of the file's metadata.
 pub const POLICY_FORMAT: &str = "phase-policy/1";
+/// Visits that the network's probabilities are given as, in place of a search's.
+pub(crate) const VISITS: f64 = 1000.0;
 /// Most particles of which features are averaged; they are evenly spaced among all.
 const SUMMARISED: usize = 2;
 

@@ -181,7 +181,7 @@ mod tests {
         have_the_shares_of_their_searches::<PublishedMinds>(1.6..2.64);
     }
 
-    /// The policy and the value that minds evaluate for shared features, features of all actions, and weights.
+    /// Policy and value that minds evaluate for shared features, features of all actions, and weights.
     type Evaluated = fn(&[f32], &[f32], &[u8]) -> (Vec<f64>, f64);
 
     fn is_evaluated_as_trained<M: Searchers>(evaluated: Evaluated) {

@@ -11,8 +11,8 @@ const ACTIONS: usize = Action::ALL.len();
 const OF_SELF: usize = 6;
 /// Kinds of subgoals that are searched for.
 const KINDS: usize = 6;
-/// Of the subgoal: its kind, sign, distance twice; whose body is to move, its place and velocity; the target's
-/// place.
+/// Of the subgoal: its kind, sign, distance twice; whose body is to move, its place and velocity; the place
+/// of the target.
 const OF_AIM: usize = KINDS + 4 + 2 + 3 * 2;
 /// Of the other agent: place, gap, velocity, heading, touched, holding the same.
 const OF_OTHER: usize = 9;
