@@ -244,7 +244,12 @@ impl Mind {
         let of_action = |(&action, share)| ActionEvaluation { action, visits: visits(share), value };
         let evaluations = actions.iter().zip(&policy).map(of_action).collect();
         let weights: Vec<f64> = policy.iter().map(|p| libm::pow(*p, DECISIVENESS)).collect();
-        let mut left = stream(search.seed, Purpose::Search, 0).random_range(0.0..weights.iter().sum());
+        let sum: f64 = weights.iter().sum();
+        if !sum.is_normal() {
+            // What is not finite cannot be drawn from.
+            return Findings { action: Action::Stop, evaluations, drawn: 0 };
+        }
+        let mut left = stream(search.seed, Purpose::Search, 0).random_range(0.0..sum);
         let drawn = weights.iter().position(|weight| {
             left -= weight;
             left < 0.0

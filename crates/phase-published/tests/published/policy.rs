@@ -38,6 +38,20 @@ fn the_network_alone_reports_its_policy_as_visits() {
     }
 }
 
+/// The agent decides in states that are not finite, too.
+#[test]
+fn a_state_that_is_not_finite_is_no_reason_to_panic() {
+    let scene = open((23.5, 12.0, 0.4), on_landmark(ME, LandmarkId::TOP_RIGHT), 0.0);
+    for value in [f32::NAN, f32::INFINITY, f32::MAX] {
+        for body in 0..3 {
+            let mut state = scene.initial_state();
+            (state.bodies[body].velocity.x, state.bodies[body].position.y) = (value, value);
+            let (_, thought) = mind(&scene).decide(&[state], &mut random(1)).unwrap();
+            assert!(!thought.actions.is_empty(), "{body}: {value}");
+        }
+    }
+}
+
 /// Actions are drawn in proportion to the fourth power of their probabilities.
 #[test]
 fn actions_are_drawn_by_the_policy() {
