@@ -37,7 +37,8 @@ pub struct TheoryParameters {
     pub confidence: f64,
     /// Steps of watching after which a helper or hinderer acts, whatever the share (above 0).
     pub patience: f64,
-    /// Cost of a step at whose end the other perceives a hinderer of level 2 (reward), at least 0.
+    /// Cost of a step for a hinderer of level 2 that the other is sure to be hindered by (reward), at least
+    /// 0; in proportion to how sure the other is.
     pub discretion: f64,
     /// Bearing of the other, relative to its own heading, up to which a watcher does not turn (rad).
     pub watching_angle: f32,

@@ -46,13 +46,6 @@ impl<D> Ignorance<D> {
         candidates.iter().find(agree)
     }
 
-    /// Cost of being seen in a step (reward): a hinderer of level 2 knows that the other infers what it is
-    /// after from what it sees.
-    pub(crate) fn exposure(&self, attitude: Attitude) -> f64 {
-        let secret = self.level == Level::Two && attitude == Attitude::Hinder;
-        if secret { self.theory.discretion } else { 0.0 }
-    }
-
     /// Counts a step of watching, or of acting.
     pub(crate) const fn count_watching(&mut self, watches: bool) {
         self.watched = if watches { self.watched + 1 } else { self.watched.saturating_sub(1) };

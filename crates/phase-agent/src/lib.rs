@@ -47,9 +47,11 @@ mod matter;
 mod mind;
 pub mod objective;
 mod parameters;
+mod pretext;
 pub mod policy;
 pub mod rollout_policy;
 pub mod search_model;
+mod suspicion;
 mod theory;
 mod view;
 
@@ -59,5 +61,6 @@ pub use mind::Mind;
 pub use parameters::{Foresight, PhaseParameters, Prior};
 pub use phase_belief::Contest;
 pub use policy::PolicyNetwork;
+pub use pretext::Scrutiny;
 pub use theory::{Supposition, TheoryOfMind};
 pub use view::BeliefView;

@@ -9,6 +9,7 @@ use crate::{
     policy::{VISITS, summary},
     rollout_policy,
     search_model::{SearchModel, SearchState},
+    suspicion::Suspicion,
     theory::{self, Supposition},
     view::BeliefView,
 };
@@ -39,6 +40,8 @@ pub struct Mind<D> {
     navigator: Navigator,
     /// The additional parts of a mind that does not know the other's.
     ignorance: Option<Ignorance<D>>,
+    /// What the other suspects, if that matters to the agent.
+    suspicion: Option<Suspicion>,
 }
 
 impl<D: Dynamics> Mind<D> {
@@ -82,6 +85,7 @@ impl<D: Dynamics> Mind<D> {
             navigator: Navigator::new(scene.layout, parameters.navigation()),
             physics,
             ignorance: None,
+            suspicion: None,
         })
     }
 
@@ -96,6 +100,12 @@ impl<D: Dynamics> Mind<D> {
         };
         let worlds = Strength::ALL.into_iter().map(world).collect();
         let theory = TheoryParameters::default();
+        // A policy that is not searched for cannot weigh what it gives away.
+        let searches = self.parameters.prior != Prior::NetworkAlone;
+        if level == Level::Two && self.attitude == Attitude::Hinder && searches {
+            let (layout, planning) = (self.navigator.map().layout(), self.parameters.planning());
+            self.suspicion = Some(Suspicion::new(self.agent, &self.physics, layout, planning, theory));
+        }
         self.ignorance = Some(Ignorance { level, theory, worlds, planners: BTreeMap::new(), watched: 0 });
         self
     }
@@ -119,6 +129,9 @@ impl<D: Dynamics> Mind<D> {
         belief_view: BeliefView<'_>,
         random: &mut impl Rng,
     ) -> Result<(Action, Thought), PomcpError> {
+        if let Some(suspicion) = &mut self.suspicion {
+            suspicion.learn(belief_view.particles, belief_view.last_action);
+        }
         let question = match self.question(belief_view) {
             Matter::Nothing => return Ok((Action::Stop, Thought::IDLE)),
             Matter::Watch(action, subgoals) => {
@@ -341,6 +354,9 @@ impl<D: Dynamics> Mind<D> {
         let objective =
             Objective::new(physics, navigator, &roots[0], self.agent, question.subgoal, parameters);
         let other_objective = Objective::new(physics, navigator, &roots[0], other, other_goal, parameters);
+        let scrutiny = self.suspicion.as_mut().map(|suspicion| {
+            suspicion.scrutiny(&objective, navigator, &roots[0], goals[other], belief_view)
+        });
         let model = SearchModel {
             dynamics,
             physics,
@@ -350,14 +366,17 @@ impl<D: Dynamics> Mind<D> {
             goals,
             rewards_goals: !matches!(unobserved, Some(Entity::Object(_))),
             attitude: self.attitude,
-            exposure: self.ignorance.as_ref().map_or(0.0, |it| it.exposure(self.attitude)),
+            scrutiny,
             root_prior: Vec::new(),
         };
         // If all particles are equal, one root suffices and the search can cache its transitions.
         let different = if roots.iter().all(|root| root == &roots[0]) { &roots[..1] } else { roots };
         let search_states: Vec<SearchState> = different
             .iter()
-            .map(|&state| SearchState::new(&model.objective, state, belief_view.last_action))
+            .map(|&state| {
+                let state = SearchState::new(&model.objective, state, belief_view.last_action);
+                model.scrutiny.as_ref().map_or(state, |scrutiny| state.under(scrutiny))
+            })
             .collect();
         use_model(&mut self.pomcp, model, &search_states)
     }

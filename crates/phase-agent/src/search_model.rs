@@ -4,6 +4,7 @@ use crate::{
     Foresight,
     habits::{self, Context},
     objective::Objective,
+    pretext::{Guess, Scrutiny},
     rollout_policy,
 };
 use phase_model::{
@@ -35,8 +36,8 @@ pub struct SearchModel<'a, D> {
     pub rewards_goals: bool,
     /// The agent's attitude.
     pub attitude: Attitude,
-    /// Cost of a step at whose end the other perceives the agent (reward), at least 0.
-    pub exposure: f64,
+    /// What the other infers from the agent's actions, if it costs the agent something.
+    pub scrutiny: Option<Scrutiny<'a>>,
     /// Prior weights of the root's actions, in place of habits; empty for none.
     pub root_prior: Vec<f64>,
 }
@@ -89,14 +90,14 @@ impl<D> SearchModel<'_, D> {
             f64::from(u8::from(holds))
         };
         let shaping = -f64::from(search_state.distance / arena::DIAGONAL);
-        let exposure = if self.exposure > 0.0 && self.is_seen(state) { self.exposure } else { 0.0 };
+        let suspicion = self.scrutiny.as_ref().map_or(0.0, |scrutiny| scrutiny.cost(&search_state.guess));
         reward::social_reward(
             self.attitude,
             satisfied(self.goals[agent]),
             satisfied(self.goals[agent.other()]),
             action,
         ) + shaping
-            - exposure
+            - suspicion
     }
 
     /// Whether the other perceives the agent.
@@ -129,6 +130,8 @@ pub struct SearchState {
     steps: u16,
     /// Whether the other agent was in motion at the root.
     other_moves: bool,
+    /// What the other takes the agent to be after.
+    guess: Guess,
 }
 
 impl SearchState {
@@ -137,7 +140,15 @@ impl SearchState {
     pub fn new(objective: &Objective<'_>, state: State, last_action: Option<Action>) -> Self {
         let other = state.body(Entity::Agent(objective.agent().other()));
         let other_moves = other.velocity.length() > objective.parameters().moving_speed;
-        Self { state, distance: objective.distance(&state), last_action, steps: 0, other_moves }
+        let distance = objective.distance(&state);
+        Self { state, distance, last_action, steps: 0, other_moves, guess: Guess::default() }
+    }
+
+    /// This state as the other sees the agent in it.
+    #[must_use]
+    pub fn under(mut self, scrutiny: &Scrutiny<'_>) -> Self {
+        self.guess = scrutiny.guess();
+        self
     }
 
     /// Φ (u).
@@ -166,10 +177,20 @@ impl<D: Dynamics> SearchModel<'_, D> {
     /// Imagines a step in which the agent takes an action.
     pub(crate) fn imagine(&self, search_state: &mut SearchState, action: Action) -> Transition<()> {
         let actions = self.joint_action(search_state, action);
+        // The other learns from a step that it perceives from beginning to end.
+        let evidence = self.scrutiny.as_ref().map(|scrutiny| {
+            let SearchState { state, last_action, .. } = search_state;
+            let likelihoods = || scrutiny.likelihoods(&self.objective, state, *last_action, action);
+            self.is_seen(state).then(likelihoods)
+        });
         let state = &mut search_state.state;
         match self.objective.parameters().foresight {
             Foresight::Coarse | Foresight::Points => self.dynamics.step_approximate(state, actions),
             Foresight::Exact => self.dynamics.step(state, actions),
+        }
+        if let (Some(scrutiny), Some(evidence)) = (&self.scrutiny, evidence) {
+            let seen = evidence.filter(|_| self.is_seen(&search_state.state));
+            scrutiny.learn(&mut search_state.guess, seen);
         }
         self.conclude(search_state, action)
     }

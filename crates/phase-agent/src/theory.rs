@@ -314,7 +314,7 @@ pub(crate) fn goals(agent: AgentId, attitude: Attitude, own: Goal, intent: Inten
 /// Both goals as the other has them in its plans if it has an intent. One that pursues a goal of its own does
 /// not reckon with this agent, to which a goal is given that has nothing to do with it: level 1 supposes
 /// level 0.
-fn goals_of_other(agent: AgentId, own: Goal, intent: Intent) -> [Goal; AGENT_COUNT] {
+pub(crate) fn goals_of_other(agent: AgentId, own: Goal, intent: Intent) -> [Goal; AGENT_COUNT] {
     match intent.attitude {
         Attitude::Neutral => {
             let landmark = LandmarkId::TOP_LEFT;

@@ -82,7 +82,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         goals: scene.goals(),
         rewards_goals: true,
         attitude: scene.agents[ME].attitude,
-        exposure: 0.0,
+        scrutiny: None,
         root_prior: Vec::new(),
     };
     let mut priors = Vec::new();

@@ -112,7 +112,7 @@ impl<'a> Objective<'a> {
 
     /// Bodies and walls.
     #[must_use]
-    pub const fn physics(&self) -> &PhysicsConfig {
+    pub const fn physics(&self) -> &'a PhysicsConfig {
         self.physics
     }
 

@@ -40,6 +40,24 @@ pub(super) struct TrialRunner {
     progress: Progress,
 }
 
+/// The share of an agent's particles that suppose that the other hinders it, averaged over the steps of an
+/// event; `None` if the agent supposes nothing, since it knows the other's goal.
+fn suspicion(event: &Event, agent: AgentId) -> Option<f64> {
+    let shares: Vec<f64> = event
+        .steps
+        .iter()
+        .filter_map(|step| {
+            let intents = &step.thoughts[agent].intents;
+            let of = |hinders: bool| {
+                let chosen = intents.iter().filter(|it| !hinders || it.intent.attitude == Attitude::Hinder);
+                chosen.map(|it| it.particles as f64).sum::<f64>()
+            };
+            (of(false) > 0.0).then(|| of(true) / of(false))
+        })
+        .collect();
+    (!shares.is_empty()).then(|| shares.iter().sum::<f64>() / shares.len() as f64)
+}
+
 /// The unique name of a part: parts may share scenes.
 pub(super) fn key(part: &BehaviourTest) -> String {
     match (part.lambda, part.criterion) {
@@ -78,7 +96,12 @@ impl TrialRunner {
             }
             None => None,
         };
-        let verdict = judge::judge(part, &event.scene, &Track::of_event(&event), control.as_ref());
+        let mut verdict = judge::judge(part, &event.scene, &Track::of_event(&event), control.as_ref());
+        if part.criterion == Criterion::Unseen
+            && let Some(share) = suspicion(&event, part.judged)
+        {
+            verdict.notes += &format!("; {:.0} % suspicion", 100.0 * share);
+        }
         let flip = event.scene.layout.flip();
         Ok(Some(Trial { seed: event.seed, flip, steps: event.steps.len(), verdict }))
     }
