@@ -57,7 +57,7 @@ impl Default for TheoryParameters {
             angle_scale: 0.05,
             confidence: 0.6,
             patience: 24.0,
-            discretion: 0.5,
+            discretion: 1.0,
             watching_angle: 0.5,
         }
     }

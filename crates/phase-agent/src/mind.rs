@@ -132,11 +132,12 @@ impl<D: Dynamics> Mind<D> {
         if let Some(suspicion) = &mut self.suspicion {
             suspicion.learn(belief_view.particles, belief_view.last_action);
         }
+        let suspicion = self.suspicion.as_ref().map(Suspicion::of_hindering);
         let question = match self.question(belief_view) {
-            Matter::Nothing => return Ok((Action::Stop, Thought::IDLE)),
+            Matter::Nothing => return Ok((Action::Stop, Thought { suspicion, ..Thought::IDLE })),
             Matter::Watch(action, subgoals) => {
                 let intents = believed(belief_view.suppositions);
-                return Ok((action, Thought { subgoals, intents, ..Thought::IDLE }));
+                return Ok((action, Thought { subgoals, intents, suspicion, ..Thought::IDLE }));
             }
             Matter::Search(question) => question,
         };
@@ -149,10 +150,8 @@ impl<D: Dynamics> Mind<D> {
             }
         };
         let Question { subgoal, subgoals, plan, .. } = question;
-        Ok((
-            action,
-            Thought { subgoal, subgoals, plan, actions, intents: believed(belief_view.suppositions) },
-        ))
+        let intents = believed(belief_view.suppositions);
+        Ok((action, Thought { subgoal, subgoals, plan, actions, intents, suspicion }))
     }
 
     /// The next decision as the policy network sees it, with the actions that it is about; `None` if there

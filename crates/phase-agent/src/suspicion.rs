@@ -139,6 +139,11 @@ impl Suspicion {
         }
     }
 
+    /// The probability of hindering, 0 to 1.
+    pub(crate) fn of_hindering(&self) -> f64 {
+        self.weights[0]
+    }
+
     /// In what share of the particles the other perceives the agent, 0 to 1.
     fn perceived(&self, particles: &[State]) -> f64 {
         let is_perceived = |state: &State| {

@@ -1,7 +1,7 @@
 //! Steering, action sets, reward and decisions in hand-made states.
 
 use phase_agent::{
-    BeliefView, Mind, PhaseParameters, action_set,
+    AscribedPolicy, BeliefView, HabitPolicy, Mind, PhaseParameters, Scrutiny, TheoryParameters, action_set,
     objective::Objective,
     rollout_policy,
     search_model::{SearchModel, SearchState},
@@ -134,7 +134,7 @@ fn rewards_follow_equation_1() {
                 goals,
                 rewards_goals: true,
                 attitude,
-                exposure: 0.0,
+                scrutiny: None,
                 root_prior: Vec::new(),
             };
             let mut after = SearchState::new(&objective, state, None);
@@ -155,36 +155,72 @@ fn rewards_follow_equation_1() {
     }
 }
 
+/// Agent 0 wants to hinder on its way up to landmark 1; a pretext would send it down to landmark 2.
+///
+/// While agent 1 looks, a step up makes hindering likelier, and more so than a turn towards the pretext, by
+/// Bayes' rule with the habits as likelihoods; while it looks away, neither tells anything.
 #[test]
-fn being_seen_costs() {
-    const EXPOSURE: f64 = 0.5;
+fn being_seen_through_costs() {
+    const POSSIBLE: usize = 16;
+    let theory = TheoryParameters::default();
+    let up = achieve(Predicate::On(Entity::Agent(AgentId::ZERO), LandmarkId::TOP_RIGHT));
+    let down = achieve(Predicate::On(Entity::Agent(AgentId::ZERO), LandmarkId::BOTTOM_RIGHT));
     // Agent 1 stands in the same room, 6 u above agent 0, and looks down or up.
-    let mut scene = scene(Vec2::new(23.5, 3.5), 0.0);
-    scene.agents[1].start.position = Vec2::new(23.5, 9.5);
-    let subgoal = achieve(Predicate::On(Entity::Agent(AgentId::ZERO), LandmarkId::TOP_RIGHT));
-    for (angle, costs) in [(core::f32::consts::PI, EXPOSURE), (0.0, 0.0)] {
+    let mut scene = scene(Vec2::new(23.5, 11.0), 0.0);
+    scene.agents[1].start.position = Vec2::new(23.5, 17.0);
+    let physics = scene.physics();
+    let forward = Forward::new(&physics);
+    let cost = |angle: f32, action: Action| {
+        let mut scene = scene.clone();
         scene.agents[1].start.angle = angle;
-        let physics = scene.physics();
         let state = scene.initial_state();
-        let forward = Forward::new(&physics);
-        let reward = |exposure| {
+        let objective = compiled(&physics, &scene, &state, up);
+        let pretext = compiled(&physics, &scene, &state, down);
+        let each = 1.0 / POSSIBLE as f64;
+        let actions = [action];
+        let reward = |scrutiny: Option<Scrutiny<'_>>| {
             let model = SearchModel {
                 dynamics: &forward,
                 physics: &physics,
-                objective: compiled(&physics, &scene, &state, subgoal),
+                objective: objective.clone(),
                 other_objective: compiled(&physics, &scene, &state, Subgoal::Stay),
-                actions: &[Action::Stop],
+                actions: &actions,
                 goals: [ON_2, OTHER_ON_0],
                 rewards_goals: true,
                 attitude: Attitude::Hinder,
-                exposure,
+                scrutiny,
                 root_prior: Vec::new(),
             };
             let mut after = SearchState::new(&model.objective, state, None);
+            if let Some(scrutiny) = &model.scrutiny {
+                after = after.under(scrutiny);
+            }
             model.rollout_step(&mut after, 0, &mut stream(1, Purpose::Search, 0)).reward
         };
-        assert!((reward(0.0) - reward(EXPOSURE) - costs).abs() < 1e-9, "{angle}");
-    }
+        let scrutiny = Scrutiny::new(each, vec![(pretext.clone(), each, 1)], POSSIBLE, theory);
+        let likelihood = |objective: &Objective<'_>| {
+            let weights = HabitPolicy { sharpness: theory.sharpness }.weights(objective, &state, None);
+            let share = weights[action.index()] / weights.iter().sum::<f64>();
+            ((1.0 - theory.lapse) * share + theory.lapse / Action::ALL.len() as f64)
+                .powf(theory.inverse_temperature)
+        };
+        let [own, other] = [likelihood(&objective), likelihood(&pretext)];
+        let others = (1.0 / Action::ALL.len() as f64).powf(theory.inverse_temperature);
+        let posterior = each * own / (each * (own + other) + (1.0 - 2.0 * each) * others);
+        let expected = theory.discretion * ((1.0 - theory.forgetting) * posterior + theory.forgetting * each);
+        (reward(None) - reward(Some(scrutiny)), expected)
+    };
+    let before = theory.discretion / POSSIBLE as f64;
+    let feint = heuristic(&scene, &scene.initial_state(), down);
+    assert_ne!(feint, Action::Up);
+    let costs = [Action::Up, feint].map(|action| {
+        let (seen, expected) = cost(core::f32::consts::PI, action);
+        assert!((seen - expected).abs() < 1e-9, "{action:?}: {seen} {expected}");
+        let (unseen, _) = cost(0.0, action);
+        assert!((unseen - before).abs() < 1e-9, "{action:?}: {unseen} {before}");
+        seen
+    });
+    assert!(costs[0] > before && costs[1] < 0.8 * costs[0], "{costs:?}, {before} unseen");
 }
 
 /// The first decision of agent 0 with a small search.

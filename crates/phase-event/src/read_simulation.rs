@@ -248,6 +248,7 @@ fn thought(subgoal: &Field<'_>, field: &Field<'_>) -> Result<Thought, FieldError
             Some(intents) => intents.items()?.map(believed).collect::<Result<_, _>>()?,
             None => Vec::new(),
         },
+        suspicion: field.optional("suspicion")?.map(|field| probability(&field)).transpose()?,
     })
 }
 
@@ -258,6 +259,11 @@ fn named(field: &Field<'_>) -> Result<Subgoal, FieldError> {
             shown(field.value())
         ))
     })
+}
+
+fn probability(field: &Field<'_>) -> Result<f64, FieldError> {
+    let number = double(field)?;
+    if (0.0..=1.0).contains(&number) { Ok(number) } else { Err(field.must_be("a probability, 0 to 1")) }
 }
 
 fn double(field: &Field<'_>) -> Result<f64, FieldError> {

@@ -55,6 +55,9 @@ pub struct Thought {
     /// knows the other's goal.
     #[serde(skip)]
     pub intents: Vec<BelievedIntent>,
+    /// The probability that the other suspects this agent to hinder it, as the agent sees it, 0 to 1; only
+    /// of hinderers of level 2.
+    pub suspicion: Option<f64>,
 }
 
 impl Thought {
@@ -65,14 +68,16 @@ impl Thought {
         plan: Vec::new(),
         actions: Vec::new(),
         intents: Vec::new(),
+        suspicion: None,
     };
 
     /// The thought as JSON with subgoals as people write them, such as `On(agent 0, landmark 1)`: `subgoal`,
     /// `subgoals` with `value` and `particles`, `plan`, `actions` with `visits` and `value`, and, of an agent
-    /// that does not know the other's goal, `intents` with `alpha`, `goal`, `words` and `probability`.
+    /// that does not know the other's goal, `intents` with `alpha`, `goal`, `words` and `probability`, and,
+    /// of one that asks itself whether the other suspects hindrance, `suspicion`.
     #[must_use]
     pub fn described(&self) -> Value {
-        let Self { subgoal, subgoals, plan, actions, intents } = self;
+        let Self { subgoal, subgoals, plan, actions, intents, suspicion } = self;
         let proposed = subgoals.iter().map(
             |it| json!({ "subgoal": it.subgoal.to_string(), "value": it.value, "particles": it.particles }),
         );
@@ -92,6 +97,9 @@ impl Thought {
                 })
             });
             described["intents"] = believed.collect();
+        }
+        if let Some(suspicion) = suspicion {
+            described["suspicion"] = json!(suspicion);
         }
         described
     }

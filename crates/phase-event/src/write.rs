@@ -291,7 +291,7 @@ impl<'a> RecoveredMembers<'a> {
 }
 
 /// A subgoal's text, value and particles; an action's name, visits and value; an intent's α, goal and
-/// particles.
+/// particles; a probability.
 #[derive(Serialize)]
 struct ThoughtMembers {
     subgoals: Vec<(String, f64, usize)>,
@@ -299,6 +299,8 @@ struct ThoughtMembers {
     actions: Vec<(&'static str, u32, f64)>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     intents: Vec<(i8, Goal, usize)>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    suspicion: Option<f64>,
 }
 
 impl ThoughtMembers {
@@ -311,6 +313,7 @@ impl ThoughtMembers {
             plan: thought.plan.iter().map(ToString::to_string).collect(),
             actions: searched.map(|it| (it.action.name(), it.visits, it.value)).collect(),
             intents: believed.map(|it| (it.intent.attitude.alpha(), it.intent.goal, it.particles)).collect(),
+            suspicion: thought.suspicion,
         }
     }
 }

@@ -135,6 +135,7 @@ impl Mind {
             plan: if aim == Aim::Stop { Vec::new() } else { vec![aim.subgoal()] },
             actions,
             intents: Vec::new(),
+            suspicion: None,
         };
         Ok((action, thought))
     }

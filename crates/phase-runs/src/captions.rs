@@ -29,8 +29,11 @@ pub fn lines(thought: &Thought) -> Vec<Caption> {
     if !thought.intents.is_empty() {
         lines.push(heading(["", "particles"], "the other wants (bar: share)"));
         let all: usize = thought.intents.iter().map(|it| it.particles).sum();
-        lines.extend(thought.intents.iter().take(ACTIONS).map(|it| intent_line(it, all)));
-        lines.resize(COUNT, Caption::default());
+        let suspicion = thought.suspicion.map(suspicion_line);
+        let intents = ACTIONS - usize::from(suspicion.is_some());
+        lines.extend(thought.intents.iter().take(intents).map(|it| intent_line(it, all)));
+        lines.resize(COUNT - usize::from(suspicion.is_some()), Caption::default());
+        lines.extend(suspicion);
         return lines;
     }
     let searched = !thought.actions.is_empty();
@@ -55,6 +58,11 @@ fn intent_line(believed: &BelievedIntent, particles: usize) -> Caption {
     let BelievedIntent { intent, particles: count } = believed;
     let bar = *count as f32 / particles.max(1) as f32;
     Caption { cells: vec![String::new(), count.to_string()], text: intent.to_string(), bar }
+}
+
+fn suspicion_line(probability: f64) -> Caption {
+    let cells = vec![String::new(), number(probability, 2)];
+    Caption { cells, text: "suspects hindrance".into(), bar: probability as f32 }
 }
 
 fn action_line(found: &ActionEvaluation, visits: u32) -> Caption {

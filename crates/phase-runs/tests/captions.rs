@@ -39,6 +39,7 @@ fn thought() -> Thought {
             found(Action::Right, 50, 0.0),
         ],
         intents: vec![],
+        suspicion: None,
     }
 }
 
@@ -104,4 +105,19 @@ fn believed_intents_take_the_place_of_actions() {
     assert_eq!(of("On(object 1, landmark 0)"), Some(0.75));
     assert_eq!(of("to hinder"), Some(0.25));
     assert_eq!(of("down"), None);
+    assert_eq!(of("suspects hindrance"), None);
+}
+
+/// A hinderer that asks itself what the other suspects tells it, in as many lines.
+#[test]
+fn suspicion_is_the_last_line() {
+    let goal = Goal::Touch { agent: AgentId::ONE, other: AgentId::ZERO, sign: Sign::Positive };
+    let mut thought = thought();
+    let intent = Intent { attitude: Attitude::Neutral, goal };
+    thought.intents = vec![BelievedIntent { intent, particles: 20 }];
+    thought.suspicion = Some(0.25);
+    let lines = lines(&thought);
+    assert_eq!(lines.len(), COUNT);
+    let last = lines.last().unwrap();
+    assert_eq!((last.text.as_str(), last.bar, last.cells[1].as_str()), ("suspects hindrance", 0.25, "0.25"));
 }

@@ -43,6 +43,9 @@ fn digest(event: &Event) -> String {
                 digest.integer(goal.landmark().map_or(NO_LANDMARK, |it| it.index() as u64));
                 digest.integer(supposed.particles as u64);
             }
+            if let Some(suspicion) = thought.suspicion {
+                digest.double(suspicion);
+            }
             for searched in &thought.actions {
                 digest.integer(searched.action.index() as u64);
                 digest.integer(u64::from(searched.visits));

@@ -2,7 +2,7 @@
 
 use phase_event::{ActionEvaluation, ObservedEvent, Thought};
 use phase_minds::MindParameters;
-use phase_model::{Action, AgentId, Body, Goal, LandmarkId, Layout, Sign, Size, Strength, Subgoal, Vec2};
+use phase_model::{Action, AgentId, Body, Goal, LandmarkId, Layout, Sign, Size, Strength, Vec2};
 use phase_simple::{
     AgentDecision, Hypothesis, PreparedEvent,
     choice::{CHOICES, Chance, action_likelihoods, chances, fitted_lapse, index, log_likelihood, policy},
@@ -11,13 +11,7 @@ use proptest::prelude::*;
 
 fn decided(action: Action, visits: &[(Action, u32)]) -> AgentDecision {
     let actions = visits.iter().map(|&(action, visits)| ActionEvaluation { action, visits, value: 0.0 });
-    let thought = Thought {
-        subgoal: Subgoal::Stay,
-        subgoals: Vec::new(),
-        plan: Vec::new(),
-        actions: actions.collect(),
-        intents: Vec::new(),
-    };
+    let thought = Thought { actions: actions.collect(), ..Thought::IDLE };
     AgentDecision { action, thought, deviation: 0.0 }
 }
 

@@ -140,6 +140,7 @@ fn a_simulation_that_does_not_fit_together_is_refused() {
         ("/events/0/subgoals/1", json!(["Stay"]), "thoughts"),
         ("/events/0/thoughts/0/0/plan/0", json!(7), "`thoughts[0][0].plan[0]`"),
         ("/events/0/thoughts/0/0/actions/3/1", json!(-1), "`thoughts[0][0].actions[3][1]`"),
+        ("/events/0/thoughts/0/0/suspicion", json!(1.5), "`thoughts[0][0].suspicion`"),
         ("/events/0/substeps/agents/0", json!([]), "`substeps.agents[0]`"),
         ("/events/0/substeps/agents/0/3/0", json!(null), "`substeps.agents[0][3][0]`"),
         ("/events/0/substeps/objects", json!([]), "`substeps.objects`"),

@@ -63,6 +63,7 @@ fn thought(t: usize) -> Thought {
         plan: vec![subgoal],
         actions: vec![],
         intents: vec![],
+        suspicion: None,
     }
 }
 

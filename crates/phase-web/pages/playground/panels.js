@@ -51,7 +51,7 @@ export function showThoughts(panel, report) {
     return;
   }
   panel.replaceChildren(two((agent) => {
-    const { subgoal, subgoals, actions, intents = [] } = report.minds[agent];
+    const { subgoal, subgoals, actions, intents = [], suspicion } = report.minds[agent];
     const particles = subgoals.reduce((sum, it) => sum + it.particles, 0) || 1;
     const visits = actions.reduce((sum, it) => sum + it.visits, 0) || 1;
     const most = [...actions].sort((a, b) => b.visits - a.visits).slice(0, 4);
@@ -62,6 +62,7 @@ export function showThoughts(panel, report) {
       ...most.map((it) => share(it.action, it.visits / visits, String(it.visits))),
       ...(intents.length > 0 ? [note("the other wants:")] : []),
       ...intents.slice(0, 4).map((it) => share(it.words, it.probability, `${Math.round(100 * it.probability)} %`)),
+      ...(suspicion === undefined ? [] : [share("suspects hindrance", suspicion, `${Math.round(100 * suspicion)} %`)]),
     ];
   }));
 }
