@@ -353,9 +353,10 @@ impl<D: Dynamics> Mind<D> {
         let objective =
             Objective::new(physics, navigator, &roots[0], self.agent, question.subgoal, parameters);
         let other_objective = Objective::new(physics, navigator, &roots[0], other, other_goal, parameters);
-        let scrutiny = self.suspicion.as_mut().map(|suspicion| {
-            suspicion.scrutiny(&objective, navigator, &roots[0], goals[other], belief_view)
-        });
+        let scrutiny = self
+            .suspicion
+            .as_mut()
+            .map(|suspicion| suspicion.scrutiny(&objective, navigator, &roots[0], goals[other], belief_view));
         let model = SearchModel {
             dynamics,
             physics,

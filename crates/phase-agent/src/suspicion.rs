@@ -76,7 +76,14 @@ impl Suspicion {
     fn planner(&self, attitude: Attitude, goal: Goal) -> Planner {
         let intent = Intent { attitude, goal };
         let goals = theory::goals_of_other(self.agent.other(), goal, intent);
-        Planner::with_parameters(self.physics.clone(), self.layout, self.agent, goals, attitude, self.planning)
+        Planner::with_parameters(
+            self.physics.clone(),
+            self.layout,
+            self.agent,
+            goals,
+            attitude,
+            self.planning,
+        )
     }
 
     /// What the other explains the agent's next actions by. `own` is the subgoal of the agent, compiled in

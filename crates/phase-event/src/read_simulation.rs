@@ -212,7 +212,7 @@ fn pair(subgoals: &Field<'_>, thoughts: &Field<'_>) -> Result<[Thought; AGENT_CO
 }
 
 fn thought(subgoal: &Field<'_>, field: &Field<'_>) -> Result<Thought, FieldError> {
-    field.only(&["subgoals", "plan", "actions", "intents"])?;
+    field.only(&["subgoals", "plan", "actions", "intents", "suspicion"])?;
     let names = Action::ALL.map(|action| (action.name(), action));
     let proposed = |field: Field<'_>| {
         let parts: Vec<Field<'_>> = field.items()?.collect();

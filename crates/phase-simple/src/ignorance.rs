@@ -12,7 +12,7 @@ use phase_statistics::log_sum_exp;
 const PRIOR: f64 = 0.5;
 
 /// The levels at which an agent of an attitude can reason, with their prior probabilities. Only hinderers of
-/// level 2, who wait until they are not seen, differ from those of level 1.
+/// level 2, who feint, differ from those of level 1, and only if they search.
 const fn levels(attitude: Attitude) -> &'static [(Level, f64)] {
     const THIRD: f64 = 1.0 / 3.0;
     match attitude {
