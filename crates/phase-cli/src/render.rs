@@ -22,7 +22,7 @@ pub struct Render {
     #[arg(long, value_name = "DIR|FILE", default_value = "out/render")]
     pub out: PathBuf,
     /// Overlay what agent 0 or 1 sees and believes, or both side by side, and explain its actions below
-    /// (simulated events only)
+    /// (simulated events only). Videos of a dataset with an overlay get a page to watch them
     #[arg(long, value_name = "AGENT")]
     pub belief: Option<Belief>,
     /// Show below the picture what SIMPLE makes of the event while it watches it: goals, relation, who helps

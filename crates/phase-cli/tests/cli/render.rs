@@ -46,7 +46,10 @@ fn datasets_are_rendered_as_they_were_made() {
     set.remove(Path::new("metadata.csv"));
     assert!(tree(&path.join("again")) == set, "an event file holds all that its video shows");
     succeed(path, &["render", "set", "--id", "demo-0001", "--belief", "1", "--out", "minds"]);
-    assert_eq!(names(&path.join("minds")), ["demo-0001.belief1.mp4"]);
+    assert_eq!(names(&path.join("minds")), ["demo-0001.belief1.mp4", "index.html"]);
+    let page = fs::read_to_string(path.join("minds/index.html")).expect("a page");
+    assert!(page.contains("data-src=\"demo-0001.belief1.mp4\"") && !page.contains("demo-0000"));
+    assert!(!page.contains("href=\"events"), "no file of the dataset lies beside it");
     let mind = fs::read(path.join("minds/demo-0001.belief1.mp4")).expect("a video");
     assert!(mind != set[Path::new("demo-0001.mp4")]);
 
@@ -73,7 +76,12 @@ fn datasets_are_rendered_as_they_were_made() {
     let refused = refuse(path, &["render", "many.json", "--quiet", "--belief", "both", "--out", "many"]);
     assert!(refused.contains("at most 1000000 states"), "{refused}");
     let (alone, together) = (video("1", "alone"), video("2", "together"));
-    assert_eq!(names(&path.join("alone")), ["demo-0000.belief-both.mp4", "demo-0001.belief-both.mp4"]);
+    let both = ["demo-0000.belief-both.mp4", "demo-0001.belief-both.mp4", "index.html"];
+    assert_eq!(names(&path.join("alone")), both);
+    // In the folder of a dataset, its own page stays.
+    let before = fs::read(path.join("set/index.html")).expect("a page");
+    succeed(path, &["render", "set", "--id", "demo-0000", "--belief", "0", "--out", "set"]);
+    assert!(fs::read(path.join("set/index.html")).expect("a page") == before);
     assert!(alone == together, "the number of threads changes nothing");
 }
 

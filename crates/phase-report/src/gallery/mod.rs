@@ -39,6 +39,9 @@ pub struct Gallery<'a> {
     pub seed: u64,
     /// Number of events of the dataset.
     pub events: usize,
+    /// What the videos show beside the bodies, as a sentence. With it the page is not in the dataset's folder,
+    /// and links none of its files.
+    pub overlay: Option<&'a str>,
 }
 
 /// One of several pages, in the list of all.
@@ -92,8 +95,10 @@ impl Gallery<'_> {
         };
         let intro = format!(
             "{count} by {}, seed {}. Two agents see, believe, plan and act; what they want of each other shows in \
-             how they move.",
-            self.generator, self.seed
+             how they move.{}",
+            self.generator,
+            self.seed,
+            self.overlay.map_or_else(String::new, |overlay| format!(" {overlay}")),
         );
         let parts = [
             ("title", escape(&format!("PHASE: {}", self.preset))),
@@ -101,11 +106,29 @@ impl Gallery<'_> {
             ("intro", escape(&intro) + &back),
             ("style", STYLE.to_owned()),
             ("filters", filters(events)),
-            ("cards", events.iter().zip(timelines).map(|(event, timeline)| card(event, timeline)).collect()),
+            ("cards", self.cards(events, timelines)),
             ("timelines", escape_script(&timeline::table(events, timelines).to_string())),
             ("script", SCRIPT.to_owned()),
         ];
         fill(PAGE, &parts)
+    }
+
+    fn cards(&self, events: &[EventEntry], timelines: &[Timeline]) -> String {
+        let links = |event: &EventEntry| {
+            if self.overlay.is_some() {
+                return String::new();
+            }
+            let beside = event.set.as_ref().filter(|_| event.video.is_some()).map(|place| {
+                format!(" · <a href=\"{}\">its set side by side</a>", escape(&set_video_path(&place.set)))
+            });
+            format!(
+                " · <a href=\"{}\">data</a>{}",
+                escape(event.event.path.as_str()),
+                beside.unwrap_or_default()
+            )
+        };
+        let cards = events.iter().zip(timelines);
+        cards.map(|(event, timeline)| card(event, timeline, &links(event))).collect()
     }
 
     /// The list of all pages.
@@ -200,7 +223,7 @@ fn goals(event: &EventEntry) -> Vec<String> {
     texts
 }
 
-fn card(event: &EventEntry, timeline: &Timeline) -> String {
+fn card(event: &EventEntry, timeline: &Timeline, links: &str) -> String {
     let id = escape(&event.id);
     let kind = event.kind.name();
     let agents: String = AgentId::ALL.into_iter().map(|who| agent(who, &event.agents[who])).collect();
@@ -234,16 +257,13 @@ fn card(event: &EventEntry, timeline: &Timeline) -> String {
          behind them\"></canvas>\n\
          <details><summary>{story}</summary><ol>{happenings}</ol></details>\n\
          <ul class=\"agents\">\n{agents}</ul>\n\
-         <p class=\"meta\">{things}layout {base}{flip} · {steps} steps, {seconds:.1} s · \
-         <a href=\"{json}\">data</a>{beside}</p>\n</article>\n",
+         <p class=\"meta\">{things}layout {base}{flip} · {steps} steps, {seconds:.1} s\
+         {links}</p>\n</article>\n",
         relation = event.relation.name(),
         split = event.split().name(),
         goals = escape(&goals(event).join("|")),
         manners = manners(event).collect::<Vec<_>>().join("|"),
         stance = event.set.as_ref().map_or("", |place| place.stance.name()),
-        beside = event.set.as_ref().filter(|_| event.video.is_some()).map_or_else(String::new, |place| {
-            format!(" · <a href=\"{}\">its set side by side</a>", escape(&set_video_path(&place.set)))
-        }),
         what = escape(words::kind(event.kind)),
         story = escape(&timeline.narrative.short),
         happenings = timeline
@@ -254,7 +274,6 @@ fn card(event: &EventEntry, timeline: &Timeline) -> String {
             .collect::<String>(),
         video = event.video.as_ref().map_or_else(String::new, |video| escape(video.path.as_str())),
         buttons = buttons.concat(),
-        json = escape(event.event.path.as_str()),
         base = event.layout.base,
         steps = event.steps,
         seconds = event.steps as f64 * STEP_VIDEO_SECONDS,

@@ -163,7 +163,7 @@ fn five_hundred_events_make_a_page_of_reasonable_size() {
 
 fn gallery(manifest: &Manifest) -> Gallery<'_> {
     let Manifest { preset, generator, seed, .. } = manifest;
-    Gallery { preset, generator, seed: *seed, events: manifest.events.len() }
+    Gallery { preset, generator, seed: *seed, events: manifest.events.len(), overlay: None }
 }
 
 fn page(manifest: &Manifest, timelines: &[Timeline]) -> String {

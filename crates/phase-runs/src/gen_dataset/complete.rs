@@ -66,8 +66,13 @@ pub(crate) fn describe_all(
     let progress = listener.progress_over("writing tables, page and manifest", overview.events);
     let preset = overview.preset.clone();
     let generator = overview.generator.clone();
-    let gallery =
-        Gallery { preset: &preset, generator: &generator, seed: overview.seed, events: overview.events };
+    let gallery = Gallery {
+        preset: &preset,
+        generator: &generator,
+        seed: overview.seed,
+        events: overview.events,
+        overlay: None,
+    };
     let mut pages = overview.videos.then(|| GalleryWriter::new(out, gallery));
     let mut parquet = ParquetWriter::new(out, &overview.splits)?;
     let videos = overview.videos.then_some((VIDEO_TABLE_FILE, VIDEO_TABLE_HEADER));

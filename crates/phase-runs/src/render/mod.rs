@@ -1,5 +1,6 @@
 //! Events as videos, or as pictures of their key frames, with what agents believe or an observer infers.
 
+mod page;
 mod watch;
 
 use crate::{
@@ -114,7 +115,11 @@ impl Rendering {
             Ok(made)
         })?;
         drop(progress);
-        made.ok_or_else(|| RunError::Interrupted(self.out.clone()))
+        let made = made.ok_or_else(|| RunError::Interrupted(self.out.clone()))?;
+        if let Target::Folder(folder) = &target {
+            self.write_page(&source, folder, &made)?;
+        }
+        Ok(made)
     }
 
     /// Draws one event; `None` if it was interrupted.

@@ -24,7 +24,8 @@ impl Shown {
 
 /// Writes the page into the folder of the events.
 pub(super) fn write(out: &Path, seed: u64, shown: Vec<Shown>) -> Result<(), RunError> {
-    let gallery = Gallery { preset: "simulated scenes", generator: GENERATOR, seed, events: shown.len() };
+    let (preset, generator, events) = ("simulated scenes", GENERATOR, shown.len());
+    let gallery = Gallery { preset, generator, seed, events, overlay: None };
     let mut writer = GalleryWriter::new(out, gallery);
     for Shown { entry, timeline } in shown {
         writer.push(entry, timeline)?;
