@@ -111,8 +111,10 @@ impl<D: Dynamics> Mind<D> {
     }
 
     /// Sets the steps that an agent without knowledge of the other's goal has watched, less those of acting.
+    /// It forgets what it took the other to suspect: who decides out of turn has no past.
     pub fn has_watched(&mut self, steps: u32) {
         self.ignorance.iter_mut().for_each(|ignorance| ignorance.watched = steps);
+        self.suspicion.iter_mut().for_each(Suspicion::forget);
     }
 
     /// The agent's model of the dynamics.
@@ -152,6 +154,23 @@ impl<D: Dynamics> Mind<D> {
         let Question { subgoal, subgoals, plan, .. } = question;
         let intents = believed(belief_view.suppositions);
         Ok((action, Thought { subgoal, subgoals, plan, actions, intents, suspicion }))
+    }
+
+    /// Goes through a decision that was made before, without its search: what the mind keeps of it is as after
+    /// [`decide`](Self::decide).
+    pub fn relive(&mut self, belief_view: BeliefView<'_>) {
+        if self.ignorance.is_none() {
+            return;
+        }
+        if let Some(suspicion) = &mut self.suspicion {
+            suspicion.learn(belief_view.particles, belief_view.last_action);
+        }
+        if let Matter::Search(question) = self.question(belief_view)
+            && question.actions.len() > 1
+            && self.suspicion.is_some()
+        {
+            self.with_model(belief_view, &question, |_, _, _| ());
+        }
     }
 
     /// The next decision as the policy network sees it, with the actions that it is about; `None` if there

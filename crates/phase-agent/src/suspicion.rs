@@ -146,6 +146,13 @@ impl Suspicion {
         }
     }
 
+    /// Back to what the other infers before it has seen anything.
+    pub(crate) fn forget(&mut self) {
+        let each = 1.0 / self.weights.len() as f64;
+        self.weights.fill(each);
+        self.last = None;
+    }
+
     /// The probability of hindering, 0 to 1.
     pub(crate) fn of_hindering(&self) -> f64 {
         self.weights[0]

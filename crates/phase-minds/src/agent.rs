@@ -21,6 +21,17 @@ pub struct Agent {
     last_action: Option<Action>,
 }
 
+/// What a mind decides on.
+fn view(belief: &dyn BeliefState, observed: BodySet, last_action: Option<Action>) -> BeliefView<'_> {
+    BeliefView {
+        particles: belief.particles(),
+        observed,
+        last_action,
+        suppositions: belief.suppositions(),
+        contest: belief.contest(),
+    }
+}
+
 impl Agent {
     /// The agent of a scene that made an observation, its first
     /// ([`first_observation()`](crate::first_observation())), of a state, with the belief that follows
@@ -71,14 +82,14 @@ impl Agent {
     /// # Errors
     /// [`PomcpError`], if the search fails.
     pub fn decide(&mut self, random: &mut Pcg64Mcg) -> Result<(Action, Thought), PomcpError> {
-        let view = BeliefView {
-            particles: self.belief.particles(),
-            observed: self.observed,
-            last_action: self.last_action,
-            suppositions: self.belief.suppositions(),
-            contest: self.belief.contest(),
-        };
-        self.mind.decide(view, random)
+        let Self { belief, mind, observed, last_action } = self;
+        mind.decide(view(&**belief, *observed, *last_action), random)
+    }
+
+    /// [`Mind::relive`].
+    pub fn relive(&mut self) {
+        let Self { belief, mind, observed, last_action } = self;
+        mind.relive(view(&**belief, *observed, *last_action));
     }
 
     /// [`Mind::stream_position`].

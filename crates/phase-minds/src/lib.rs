@@ -81,6 +81,10 @@ pub trait Mind: core::fmt::Debug + Send {
     /// decision has left it, if this is the second agent. Minds with other random numbers ignore it.
     fn begin_at(&mut self, _position: u64) {}
 
+    /// Goes through a decision that was made before, without its search, so that the next one is as after
+    /// [`decide`](Self::decide). Minds that keep nothing from one decision to the next ignore it.
+    fn relive(&mut self, _belief: BeliefView<'_>) {}
+
     /// Sets the steps that an agent that does not know the other's goal has watched, less those in which it
     /// has acted since, where its own decisions have not made them. Other minds ignore it.
     fn has_watched(&mut self, _steps: u32) {}

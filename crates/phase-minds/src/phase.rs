@@ -73,6 +73,10 @@ impl Mind for phase_agent::Mind<Forward> {
         Self::decide(self, belief, random)
     }
 
+    fn relive(&mut self, belief: BeliefView<'_>) {
+        Self::relive(self, belief);
+    }
+
     fn has_watched(&mut self, steps: u32) {
         Self::has_watched(self, steps);
     }

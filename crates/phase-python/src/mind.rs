@@ -149,7 +149,7 @@ impl Mind {
         self.copied(py)
     }
 
-    /// Perceives again what a mind has gone through. `PhaseError` for what no mind of this agent has.
+    /// Perceives again what a mind has gone through, and goes through its decisions without their searches. `PhaseError` for what no mind of this agent has.
     fn __setstate__(&self, py: Python<'_>, past: Past<'_>) -> PyResult<()> {
         let (vectors, actions, last_action, searches, thought) = past;
         let action = |number: usize| action_of(i64::try_from(number).unwrap_or(-1));
@@ -168,7 +168,7 @@ impl Mind {
             let before = core::iter::once(None).chain(actions.into_iter().map(Some));
             for (action, observation) in before.zip(&observed) {
                 let agent = state.perceive(action, observation)?;
-                state.agent = Some(agent);
+                state.agent.insert(agent).relive();
             }
             (0..searches).for_each(|_| {
                 state.search_random.next_u64();

@@ -1,6 +1,7 @@
 """Everything can be copied and pickled at any time and goes on as the original, also in other processes."""
 
 import copy
+import json
 import multiprocessing
 import pickle
 
@@ -133,6 +134,30 @@ def test_minds(copied, scene):
         assert again.decide(observations["agent_0"]) == decided
         assert again.thought == mind.thought
         observations, *_ = env.step({"agent_0": decided, "agent_1": other.decide(observations["agent_1"])})
+
+
+@copies
+def test_minds_that_find_out(copied):
+    """A copy knows how long it has watched and, of level 2, what it takes the other to suspect."""
+    document = phase.sample_scene("hindering", seed=1).to_dict()
+    for agent in document["agents"]:
+        agent |= {"knows": "nothing", "level": 2}
+    hinderer = next(k for k, agent in enumerate(document["agents"]) if agent["alpha"] < 0)
+    scene = phase.Scene.from_json(json.dumps(document))
+    env = PhaseParallelEnv(scene)
+    observations, _ = env.reset(seed=0)
+    minds = {f"agent_{k}": phase.Mind(scene, k, 5, QUICK) for k in range(2)}
+    suspicions = []
+    for step in range(24):
+        kept = {name: copied(mind) for name, mind in minds.items()} if step % 6 == 5 else {}
+        actions = {name: mind.decide(observations[name]) for name, mind in minds.items()}
+        for name, mind in kept.items():
+            assert mind.decide(observations[name]) == actions[name]
+            assert mind.thought == minds[name].thought
+        suspicions.append(minds[f"agent_{hinderer}"].thought["suspicion"])
+        assert "suspicion" not in minds[f"agent_{1 - hinderer}"].thought
+        observations, *_ = env.step(actions)
+    assert 0 < min(suspicions) < max(suspicions) < 1
 
 
 @copies
