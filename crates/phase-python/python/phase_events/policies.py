@@ -111,7 +111,9 @@ class Mind:
         """The reasons of the last decision as a dict; ``None`` before the first one.
 
         It has ``subgoal``, such as ``On(agent 0, landmark 1)``; ``subgoals`` with their values V and numbers of particles; ``plan``;
-        ``actions`` with the visits and values of the search.
+        ``actions`` with the visits and values of the search; of an agent that does not know the other's
+        goal ``intents``, what it takes the other to want; of a hinderer of level 2 ``suspicion``, the
+        probability that the other takes it to hinder, as the agent sees it.
         """
         thought = self.native.thought()
         return None if thought is None else json.loads(thought)
