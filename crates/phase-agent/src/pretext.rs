@@ -39,11 +39,13 @@ pub struct Scrutiny<'a> {
 }
 
 impl<'a> Scrutiny<'a> {
-    /// What the other explains actions by. `hindering` is the probability that it gives to being hindered,
-    /// `pretexts` are subgoals with theirs, the likeliest first; of more than three, the others count as
-    /// everything else, which suggests no action. The shares of the prior, of `possible` intents that are
-    /// equally likely, are mixed in as time passes; each of `pretexts` stands for the number of intents beside
-    /// it.
+    /// What the other explains actions by.
+    ///
+    /// `hindering` is the probability that it gives to being hindered (0 to 1). `pretexts`, the likeliest first,
+    /// are subgoals with the probabilities that it gives to them and the numbers of intents that suggest them.
+    /// Three of them are followed; the others are part of everything else, which makes all actions as likely.
+    /// `possible`, at least 1, is the number of all intents, hindering included: at first they are as likely,
+    /// and with every step a share of this prior returns.
     #[must_use]
     pub fn new(
         hindering: f64,

@@ -5,7 +5,7 @@ use phase_event::Thought;
 use phase_forward::Forward;
 use phase_minds::{MindKind, MindParameters};
 use phase_model::{
-    Action, AgentId, Awareness, Entity, EventKind, Level, Scene, Sight, Vec2,
+    Action, AgentId, Attitude, Awareness, Entity, EventKind, Level, Scene, Sight, Vec2,
     random::{Purpose, stream},
 };
 use phase_perception::observe;
@@ -280,8 +280,10 @@ fn thoughts_tell_what_ignorant_agents_believe_and_beliefs_can_be_recomputed() {
         let event = simulate(&ignorant(kind, level), 5, &quick()).unwrap();
         for agent in AgentId::ALL {
             let recomputed = beliefs(&event, agent, &quick().minds);
+            let hinders = event.scene.agents[agent].attitude == Attitude::Hinder;
             for (step, belief) in event.steps.iter().zip(&recomputed) {
                 let thought = &step.thoughts[usize::from(agent)];
+                assert_eq!(thought.suspicion.is_some(), hinders && level == Level::Two);
                 let told: usize = thought.intents.iter().map(|it| it.particles).sum();
                 assert_eq!((told, belief.suppositions.len()), (10, 10));
                 for it in &thought.intents {
