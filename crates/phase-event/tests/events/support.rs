@@ -102,7 +102,7 @@ fn thought(t: usize, number: &mut impl FnMut() -> f32) -> Thought {
             Subgoal::Stay,
         ],
         intents: vec![],
-        suspicion: (t % 2 == 0).then_some(0.25),
+        suspicion: t.is_multiple_of(2).then_some(0.25),
         actions: Action::ALL
             .into_iter()
             .map(|action| ActionEvaluation { action, visits: 71, value: value() })
