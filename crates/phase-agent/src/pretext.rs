@@ -1,4 +1,4 @@
-//! What an agent's own actions tell the other: a hinderer of level 2 knows that the other infers.
+//! Pretexts: a hinderer of level 2 knows that the other infers its intent from its actions.
 
 use crate::{
     ascription::{ACTIONS, AscribedPolicy, HabitPolicy, TheoryParameters},
@@ -12,7 +12,7 @@ pub(crate) const PRETEXTS: usize = 3;
 /// Number of explanations in a [`Guess`]: hindering, the pretexts, and everything else.
 const EXPLANATIONS: usize = PRETEXTS + 2;
 
-/// What the other takes the agent to be after, as the agent sees it: probabilities of hindering, of each
+/// The other's guess at the agent's intent, as the agent sees it: probabilities of hindering, of each
 /// pretext of a [`Scrutiny`], and of everything else.
 #[derive(Clone, Copy, PartialEq, Default, Debug)]
 pub(crate) struct Guess([f64; EXPLANATIONS]);
@@ -24,7 +24,7 @@ impl Guess {
     }
 }
 
-/// How the other explains what it sees a hinderer do, and what it costs the hinderer to be seen through.
+/// The other's explanations of a hinderer's actions, and the hinderer's cost of being seen through.
 ///
 /// A *pretext* is a subgoal that the agent would pursue if it wanted something harmless. The other is taken
 /// to weigh hindering, pretexts and everything else by how likely they make the actions that it sees, as a
@@ -39,11 +39,11 @@ pub struct Scrutiny<'a> {
 }
 
 impl<'a> Scrutiny<'a> {
-    /// What the other explains actions by.
+    /// Explanations, with the probabilities that the other gives to them.
     ///
-    /// `hindering` is the probability that it gives to being hindered (0 to 1). `pretexts`, the likeliest first,
-    /// are subgoals with the probabilities that it gives to them and the numbers of intents that suggest them.
-    /// Three of them are followed; the others are part of everything else, which makes all actions as likely.
+    /// `hindering` is that of being hindered (0 to 1). `pretexts`, the likeliest first, are subgoals with
+    /// theirs and the numbers of intents that suggest them. Three of them are followed; the others are part of
+    /// everything else, which makes all actions as likely.
     /// `possible`, at least 1, is the number of all intents, hindering included: at first they are as likely,
     /// and with every step a share of this prior returns.
     #[must_use]
@@ -80,8 +80,8 @@ impl<'a> Scrutiny<'a> {
         self.theory.discretion * guess.hindering()
     }
 
-    /// How likely each explanation makes an action in a state. `own` is the agent's subgoal, `last` its action
-    /// before.
+    /// The likelihood of an action in a state for each explanation. `own` is the agent's subgoal, `last` its
+    /// action before.
     pub(crate) fn likelihoods(
         &self,
         own: &Objective<'_>,
@@ -98,7 +98,7 @@ impl<'a> Scrutiny<'a> {
         likelihoods
     }
 
-    /// What the other guesses after a step: it learns from the action if it saw it.
+    /// Advances the guess by a step: the other learns from the action if it saw it.
     pub(crate) fn learn(&self, guess: &mut Guess, seen: Option<[f64; EXPLANATIONS]>) {
         learn(&mut guess.0, seen.as_ref().map(<[f64; EXPLANATIONS]>::as_slice), &self.prior.0, &self.theory);
     }

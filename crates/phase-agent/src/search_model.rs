@@ -36,7 +36,7 @@ pub struct SearchModel<'a, D> {
     pub rewards_goals: bool,
     /// The agent's attitude.
     pub attitude: Attitude,
-    /// What the other infers from the agent's actions, if it costs the agent something.
+    /// The other's view of the agent's actions, if it costs the agent something.
     pub scrutiny: Option<Scrutiny<'a>>,
     /// Prior weights of the root's actions, in place of habits; empty for none.
     pub root_prior: Vec<f64>,
@@ -130,7 +130,7 @@ pub struct SearchState {
     steps: u16,
     /// Whether the other agent was in motion at the root.
     other_moves: bool,
-    /// What the other takes the agent to be after.
+    /// The other's guess at the agent's intent.
     guess: Guess,
 }
 

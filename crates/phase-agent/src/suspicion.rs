@@ -1,4 +1,4 @@
-//! What a hinderer of level 2 takes the other to suspect, from decision to decision.
+//! The suspicion that a hinderer of level 2 ascribes to the other, from decision to decision.
 
 use crate::{
     ascription::{ACTIONS, TheoryParameters},
@@ -15,7 +15,7 @@ use phase_perception::observed_set;
 use phase_planner::{Planner, PlannerParameters};
 use std::collections::BTreeMap;
 
-/// What the other is taken to infer about an agent that hinders it.
+/// The inference about a hinderer that it ascribes to the other.
 ///
 /// The other is taken to be of level 1 and to see whole states: it weighs hindering, helping and each goal
 /// that the agent can have of its own by the agent's actions that it perceives. How far it has perceived one
@@ -37,7 +37,7 @@ pub(crate) struct Suspicion {
     last: Option<Decision>,
 }
 
-/// What explains an action in the state of a decision.
+/// Explanations of an action in the state of a decision.
 #[derive(Clone, Debug)]
 struct Decision {
     /// The policy of each explanation.
@@ -47,7 +47,7 @@ struct Decision {
 }
 
 impl Suspicion {
-    /// What the other infers before it has seen anything.
+    /// Everything is as likely before the other has seen anything.
     pub(crate) fn new(
         agent: AgentId,
         physics: &PhysicsConfig,
@@ -86,7 +86,7 @@ impl Suspicion {
         )
     }
 
-    /// What the other explains the agent's next actions by. `own` is the subgoal of the agent, compiled in
+    /// The other's explanations of the agent's next actions. `own` is the subgoal of the agent, compiled in
     /// `state`, `others_goal` the goal that it takes the other to have.
     pub(crate) fn scrutiny<'a>(
         &mut self,

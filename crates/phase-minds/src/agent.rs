@@ -21,7 +21,7 @@ pub struct Agent {
     last_action: Option<Action>,
 }
 
-/// What a mind decides on.
+/// The belief as a mind decides on it.
 fn view(belief: &dyn BeliefState, observed: BodySet, last_action: Option<Action>) -> BeliefView<'_> {
     BeliefView {
         particles: belief.particles(),

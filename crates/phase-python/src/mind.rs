@@ -149,7 +149,8 @@ impl Mind {
         self.copied(py)
     }
 
-    /// Perceives again what a mind has gone through, and goes through its decisions without their searches. `PhaseError` for what no mind of this agent has.
+    /// Perceives again what a mind has gone through, and goes through its decisions without their searches.
+    /// `PhaseError` for what no mind of this agent has.
     fn __setstate__(&self, py: Python<'_>, past: Past<'_>) -> PyResult<()> {
         let (vectors, actions, last_action, searches, thought) = past;
         let action = |number: usize| action_of(i64::try_from(number).unwrap_or(-1));

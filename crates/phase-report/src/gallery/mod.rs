@@ -39,8 +39,8 @@ pub struct Gallery<'a> {
     pub seed: u64,
     /// Number of events of the dataset.
     pub events: usize,
-    /// What the videos show beside the bodies, as a sentence. With it the page is not in the dataset's folder,
-    /// and links none of its files.
+    /// A sentence about what the videos show beside the bodies. With it the page is not in the dataset's
+    /// folder, and links none of its files.
     pub overlay: Option<&'a str>,
 }
 

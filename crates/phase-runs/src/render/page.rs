@@ -8,7 +8,7 @@ use phase_report::gallery::{Gallery, Timeline};
 use std::{collections::BTreeMap, path::Path};
 
 impl View {
-    /// What it shows beside the bodies, as a sentence.
+    /// A sentence about what it shows beside the bodies.
     const fn overlay(self) -> Option<&'static str> {
         match self {
             Self::World => None,

@@ -1,8 +1,9 @@
 //! The decision step of Algorithm 1: from particles to subgoal to action, for a given belief.
 
+mod finding_out;
+
 use crate::{
     PhaseParameters, PolicyNetwork, Prior, action_set,
-    ascription::TheoryParameters,
     ignorance::{Ignorance, believed, commonest},
     matter::{Consideration, Matter, Question, likeliest, localised, sample, summary_of, target_entity},
     objective::Objective,
@@ -15,15 +16,14 @@ use crate::{
 };
 use phase_event::{ActionEvaluation, SubgoalValue, Thought};
 use phase_model::{
-    AGENT_COUNT, Action, AgentId, Attitude, BodySet, Dynamics, Entity, Goal, Level, Literal, ObjectId,
-    PhysicsConfig, Predicate, PredicateTarget, Scene, State, Strength, Subgoal,
+    AGENT_COUNT, Action, AgentId, Attitude, BodySet, Dynamics, Entity, Goal, Literal, PhysicsConfig, Scene,
+    Subgoal,
     random::{Purpose, stream},
 };
 use phase_navigation::Navigator;
 use phase_planner::{Candidate, Plan, Planner, value};
 use phase_pomcp::{GenerativeModel, Pomcp, PomcpError, PomcpSettings};
 use rand::Rng;
-use std::collections::BTreeMap;
 
 /// One agent's goals and planners, with its own model of the dynamics. The belief is an argument of every
 /// decision, so inference can use a mind with estimated beliefs.
@@ -40,7 +40,7 @@ pub struct Mind<D> {
     navigator: Navigator,
     /// The additional parts of a mind that does not know the other's.
     ignorance: Option<Ignorance<D>>,
-    /// What the other suspects, if that matters to the agent.
+    /// The other's suspicion, if that matters to the agent.
     suspicion: Option<Suspicion>,
 }
 
@@ -89,34 +89,6 @@ impl<D: Dynamics> Mind<D> {
         })
     }
 
-    /// This mind without knowledge of the other's, about which it reasons at a level. `dynamics` makes a
-    /// model of the world for bodies and walls.
-    #[must_use]
-    pub fn ignorant(mut self, level: Level, mut dynamics: impl FnMut(&PhysicsConfig) -> D) -> Self {
-        let world = |strength| {
-            let physics = theory::with_strength(self.physics.clone(), self.agent.other(), strength);
-            let dynamics = dynamics(&physics);
-            (physics, dynamics)
-        };
-        let worlds = Strength::ALL.into_iter().map(world).collect();
-        let theory = TheoryParameters::default();
-        // A policy that is not searched for cannot weigh what it gives away.
-        let searches = self.parameters.prior != Prior::NetworkAlone;
-        if level == Level::Two && self.attitude == Attitude::Hinder && searches {
-            let (layout, planning) = (self.navigator.map().layout(), self.parameters.planning());
-            self.suspicion = Some(Suspicion::new(self.agent, &self.physics, layout, planning, theory));
-        }
-        self.ignorance = Some(Ignorance { level, theory, worlds, planners: BTreeMap::new(), watched: 0 });
-        self
-    }
-
-    /// Sets the steps that an agent without knowledge of the other's goal has watched, less those of acting.
-    /// It forgets what it took the other to suspect: who decides out of turn has no past.
-    pub fn has_watched(&mut self, steps: u32) {
-        self.ignorance.iter_mut().for_each(|ignorance| ignorance.watched = steps);
-        self.suspicion.iter_mut().for_each(Suspicion::forget);
-    }
-
     /// The agent's model of the dynamics.
     pub const fn dynamics(&self) -> &D {
         &self.dynamics
@@ -154,23 +126,6 @@ impl<D: Dynamics> Mind<D> {
         let Question { subgoal, subgoals, plan, .. } = question;
         let intents = believed(belief_view.suppositions);
         Ok((action, Thought { subgoal, subgoals, plan, actions, intents, suspicion }))
-    }
-
-    /// Goes through a decision that was made before, without its search: what the mind keeps of it is as after
-    /// [`decide`](Self::decide).
-    pub fn relive(&mut self, belief_view: BeliefView<'_>) {
-        if self.ignorance.is_none() {
-            return;
-        }
-        if let Some(suspicion) = &mut self.suspicion {
-            suspicion.learn(belief_view.particles, belief_view.last_action);
-        }
-        if let Matter::Search(question) = self.question(belief_view)
-            && question.actions.len() > 1
-            && self.suspicion.is_some()
-        {
-            self.with_model(belief_view, &question, |_, _, _| ());
-        }
     }
 
     /// The next decision as the policy network sees it, with the actions that it is about; `None` if there
@@ -232,39 +187,6 @@ impl<D: Dynamics> Mind<D> {
         Question { subgoal, subgoals, plan, actions, particles, roots }
     }
 
-    /// Keeps the other in view, or goes where it may be.
-    fn watch(&self, belief_view: BeliefView<'_>, subgoals: Vec<SubgoalValue>) -> Matter {
-        let other = Entity::Agent(self.agent.other());
-        let me = Entity::Agent(self.agent);
-        let particles = belief_view.particles;
-        if belief_view.observed.contains(other) {
-            let state = &particles[0];
-            let body = state.body(me);
-            let way = state.position(other) - body.position;
-            let bearing = libm::atan2f(body.forward().perp_dot(way), body.forward().dot(way));
-            let angle = self.ignorance.as_ref().map_or(0.0, |ignorance| ignorance.theory.watching_angle);
-            let action = match bearing {
-                bearing if bearing > angle => Action::TurnLeft,
-                bearing if bearing < -angle => Action::TurnRight,
-                _ => Action::Stop,
-            };
-            return Matter::Watch(action, subgoals);
-        }
-        let close = Predicate::Close(me, PredicateTarget::Entity(other));
-        // One place after another, as for any body out of sight: the nearest first.
-        let distance = |k: &usize| particles[*k].position(me).distance(particles[*k].position(other));
-        let nearest = (0..particles.len()).min_by(|a, b| distance(a).total_cmp(&distance(b)));
-        let Some(nearest) = nearest else { return Matter::Watch(Action::Stop, subgoals) };
-        let place = particles[nearest].position(other);
-        let near = |k: &usize| particles[*k].position(other).distance(place) <= self.parameters.colocation;
-        let mut chosen: Vec<usize> = (0..particles.len()).filter(near).collect();
-        if chosen.is_empty() {
-            chosen.push(nearest);
-        }
-        let subgoal = Subgoal::Achieve(Literal::is(close));
-        Matter::Search(self.search_for(belief_view, subgoal, subgoals, Vec::new(), chosen))
-    }
-
     /// One plan for each distinct particle, and the index of each particle's plan. When everything is
     /// observed all particles are equal and one plan suffices, or one for each supposition.
     fn plans(&mut self, belief_view: BeliefView<'_>, known: BodySet) -> (Vec<Plan>, Vec<usize>) {
@@ -286,32 +208,6 @@ impl<D: Dynamics> Mind<D> {
             }));
         }
         (plans, plan_of)
-    }
-
-    /// The plan from a particle.
-    fn plan(
-        &mut self,
-        particle: &State,
-        supposition: Option<&Supposition>,
-        known: BodySet,
-        ceded: Option<ObjectId>,
-    ) -> Plan {
-        let (Some(ignorance), Some(supposition)) = (&mut self.ignorance, supposition) else {
-            return self.planner.plan_ceding(particle, known, ceded);
-        };
-        let planner = ignorance.planners.entry(*supposition).or_insert_with(|| {
-            let (physics, _) = &ignorance.worlds[usize::from(supposition.strength.level())];
-            let goals = theory::goals(self.agent, self.attitude, self.goals[self.agent], supposition.intent);
-            Planner::with_parameters(
-                physics.clone(),
-                self.navigator.map().layout(),
-                self.agent,
-                goals,
-                self.attitude,
-                self.parameters.planning(),
-            )
-        });
-        planner.plan_ceding(particle, known, ceded)
     }
 
     /// The particles used as roots of the search. If the subgoal's target is unobserved, only those that
