@@ -42,8 +42,8 @@ impl<'a> Scrutiny<'a> {
     /// Explanations, with the probabilities that the other gives to them.
     ///
     /// `hindering` is that of being hindered (0 to 1). `pretexts`, the likeliest first, are subgoals with
-    /// theirs and the numbers of intents that suggest them. Three of them are followed; the others are part of
-    /// everything else, which makes all actions as likely.
+    /// theirs and the numbers of intents that suggest them. Three of them are followed; the others are part
+    /// of everything else, which makes all actions as likely.
     /// `possible`, at least 1, is the number of all intents, hindering included: at first they are as likely,
     /// and with every step a share of this prior returns.
     #[must_use]

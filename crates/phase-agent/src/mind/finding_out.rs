@@ -47,8 +47,8 @@ impl<D: Dynamics> Mind<D> {
         self.suspicion.iter_mut().for_each(Suspicion::forget);
     }
 
-    /// Goes through a decision that was made before, without its search. Afterwards the mind remembers as much
-    /// as after [`decide`](Self::decide).
+    /// Goes through a decision that was made before, without its search. Afterwards the mind remembers as
+    /// much as after [`decide`](Self::decide).
     pub fn relive(&mut self, belief_view: BeliefView<'_>) {
         if self.ignorance.is_none() {
             return;
