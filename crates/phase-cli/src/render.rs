@@ -6,7 +6,6 @@ use crate::{
 use clap::{Args, ValueEnum, value_parser};
 use phase_model::AgentId;
 use phase_runs::render::{Rendered, Rendering, View};
-use serde_json::json;
 use std::path::PathBuf;
 
 /// Options of `render`.
@@ -89,8 +88,11 @@ pub fn run(arguments: &Render, context: &Context) -> Result<(), CliError> {
     };
     interrupt::listen();
     let made = rendering.run(context)?;
-    let lines = made.iter().map(line).collect::<String>();
-    arguments.output.print(lines, &json!({ "files": made }))
+    let mut lines = made.files.iter().map(line).collect::<String>();
+    if let Some(page) = &made.page {
+        lines += &format!("open {} to watch them\n", page.display());
+    }
+    arguments.output.print(lines, &made)
 }
 
 fn line(made: &Rendered) -> String {

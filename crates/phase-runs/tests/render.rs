@@ -50,7 +50,7 @@ fn every_view_has_a_file_of_its_own_and_two_beliefs_are_side_by_side() {
     let folder = tempfile::tempdir().expect("a folder");
     let sheet = |view| {
         let rendering = Rendering { view, contact_sheet: Some(2), ..events(folder.path()) };
-        let made = rendering.run(&Silent).expect("drawn");
+        let made = rendering.run(&Silent).expect("drawn").files;
         assert_eq!((made.len(), made[0].interpolated), (1, false));
         made[0].file.clone()
     };
@@ -66,7 +66,7 @@ fn every_view_has_a_file_of_its_own_and_two_beliefs_are_side_by_side() {
 fn an_observer_leaves_its_course_beside_the_video() {
     let folder = tempfile::tempdir().expect("a folder");
     let rendering = Rendering { view: View::Observer(1), ..events(folder.path()) };
-    let made = rendering.run(&Silent).expect("drawn");
+    let made = rendering.run(&Silent).expect("drawn").files;
     let observer = made[0].observer.as_ref().expect("a course");
     let course: serde_json::Value =
         serde_json::from_slice(&fs::read(&observer.file).expect("a file")).expect("JSON");
@@ -96,6 +96,6 @@ fn what_cannot_be_drawn_is_refused_before_anything_is_written() {
     let files = fs::read_dir(folder.path()).expect("a folder").flatten();
     let files: Vec<_> = files.filter(|it| it.path().is_file()).map(|it| it.file_name()).collect();
     assert_eq!(files, ["events.json"]);
-    let made = Rendering { ids: measured, ..base }.run(&Silent).expect("drawn");
+    let made = Rendering { ids: measured, ..base }.run(&Silent).expect("drawn").files;
     assert!(made[0].interpolated, "a measured event has rows alone");
 }

@@ -45,7 +45,8 @@ fn datasets_are_rendered_as_they_were_made() {
     let mut set = tree(&path.join("set/videos"));
     set.remove(Path::new("metadata.csv"));
     assert!(tree(&path.join("again")) == set, "an event file holds all that its video shows");
-    succeed(path, &["render", "set", "--id", "demo-0001", "--belief", "1", "--out", "minds"]);
+    let told = succeed(path, &["render", "set", "--id", "demo-0001", "--belief", "1", "--out", "minds"]);
+    assert!(told.ends_with("open minds/index.html to watch them\n"), "{told}");
     assert_eq!(names(&path.join("minds")), ["demo-0001.belief1.mp4", "index.html"]);
     let page = fs::read_to_string(path.join("minds/index.html")).expect("a page");
     assert!(page.contains("data-src=\"demo-0001.belief1.mp4\"") && !page.contains("demo-0000"));

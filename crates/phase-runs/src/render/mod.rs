@@ -18,7 +18,7 @@ use phase_files::{WriteError, atomic, serialize_told};
 use phase_model::{AGENT_COUNT, AgentId, State, Strength, arena::SUBSTEPS};
 use phase_render::Palette;
 use phase_sim::SimulationSettings;
-use serde::Serialize;
+use serde::{Serialize, Serializer};
 use serde_json::json;
 use std::path::{Path, PathBuf};
 use watch::{Watched, watch};
@@ -89,7 +89,7 @@ impl Rendering {
     /// # Errors
     /// If the events cannot be used or have no beliefs to show, `out` is not such a folder or file, SIMPLE
     /// cannot watch an event, a file cannot be written, or a stop was requested.
-    pub fn run(&self, listener: &dyn Listener) -> Result<Vec<Rendered>, RunError> {
+    pub fn run(&self, listener: &dyn Listener) -> Result<Renderings, RunError> {
         let source = SeenInput::open(&self.events, &self.ids, listener)?;
         let target = Target::of(&self.out, self.extension(), source.len())?;
         // Known before the work for events in files that are already read; folders contain simulated events.
@@ -115,11 +115,12 @@ impl Rendering {
             Ok(made)
         })?;
         drop(progress);
-        let made = made.ok_or_else(|| RunError::Interrupted(self.out.clone()))?;
-        if let Target::Folder(folder) = &target {
-            self.write_page(&source, folder, &made)?;
-        }
-        Ok(made)
+        let files = made.ok_or_else(|| RunError::Interrupted(self.out.clone()))?;
+        let page = match &target {
+            Target::Folder(folder) => self.write_page(&source, folder, &files)?,
+            Target::File(_) => None,
+        };
+        Ok(Renderings { files, page })
     }
 
     /// Draws one event; `None` if it was interrupted.
@@ -239,6 +240,20 @@ impl Rendering {
             RunError::SimulationSettings { file: self.events.clone(), id: id.to_owned(), source }
         })
     }
+}
+
+/// All videos or pictures that were made.
+#[derive(Clone, Debug, Serialize)]
+pub struct Renderings {
+    /// One for each event.
+    pub files: Vec<Rendered>,
+    /// A page to watch them, if there is one.
+    #[serde(serialize_with = "serialize_page", skip_serializing_if = "Option::is_none")]
+    pub page: Option<PathBuf>,
+}
+
+fn serialize_page<S: Serializer>(page: &Option<PathBuf>, serializer: S) -> Result<S::Ok, S::Error> {
+    serialize_told(page.as_deref().unwrap_or(Path::new("")), serializer)
 }
 
 /// A video or picture that was made.

@@ -2,10 +2,13 @@
 
 use super::{Rendered, Rendering, View};
 use crate::{error::RunError, gallery_writer::GalleryWriter, source::SeenInput};
-use phase_dataset::manifest::{MANIFEST_FILE, Manifest};
+use phase_dataset::manifest::{MANIFEST_FILE, Manifest, PAGE_FILE};
 use phase_files::checksum::FileEntry;
 use phase_report::gallery::{Gallery, Timeline};
-use std::{collections::BTreeMap, path::Path};
+use std::{
+    collections::BTreeMap,
+    path::{Path, PathBuf},
+};
 
 impl View {
     /// A sentence about what it shows beside the bodies.
@@ -20,18 +23,18 @@ impl View {
 }
 
 impl Rendering {
-    /// Writes the page of videos with an overlay into their folder, if they are of a dataset. The page of the
-    /// dataset itself is left alone.
+    /// Writes the page of videos with an overlay into their folder, if they are of a dataset; returns where
+    /// it is. The page of the dataset itself is left alone.
     pub(super) fn write_page(
         &self,
         source: &SeenInput,
         folder: &Path,
         made: &[Rendered],
-    ) -> Result<(), RunError> {
+    ) -> Result<Option<PathBuf>, RunError> {
         let file = self.events.join(MANIFEST_FILE);
-        let Some(overlay) = self.view.overlay() else { return Ok(()) };
+        let Some(overlay) = self.view.overlay() else { return Ok(None) };
         if self.contact_sheet.is_some() || !file.is_file() || folder.join(MANIFEST_FILE).exists() {
-            return Ok(());
+            return Ok(None);
         }
         let manifest = Manifest::read(&file)?;
         let gallery = Gallery {
@@ -54,6 +57,7 @@ impl Rendering {
             entry.video = Some(FileEntry::of(folder, name)?);
             pages.push(entry, Timeline::of(&simulation.event))?;
         }
-        pages.finish().map(|_| ())
+        pages.finish()?;
+        Ok(Some(folder.join(PAGE_FILE)))
     }
 }
