@@ -103,6 +103,7 @@ impl Gallery<'_> {
         let parts = [
             ("title", escape(&format!("PHASE: {}", self.preset))),
             ("base", base.into()),
+            ("class", self.overlay.map_or("", |_| "overlay").into()),
             ("intro", escape(&intro) + &back),
             ("style", STYLE.to_owned()),
             ("filters", filters(events)),
