@@ -21,6 +21,7 @@ use std::{collections::BTreeMap, fmt::Write as _};
 const PAGE: &str = include_str!("../../assets/page.html");
 const INDEX: &str = include_str!("../../assets/pages.html");
 const STYLE: &str = include_str!("../../assets/style.css");
+const OVERLAY_STYLE: &str = include_str!("../../assets/overlay.css");
 const SCRIPT: &str = include_str!("../../assets/script.js");
 
 /// Maximum number of events on a page; with more, browsers get slow.
@@ -103,9 +104,8 @@ impl Gallery<'_> {
         let parts = [
             ("title", escape(&format!("PHASE: {}", self.preset))),
             ("base", base.into()),
-            ("class", self.overlay.map_or("", |_| "overlay").into()),
             ("intro", escape(&intro) + &back),
-            ("style", STYLE.to_owned()),
+            ("style", STYLE.to_owned() + self.overlay.map_or("", |_| OVERLAY_STYLE)),
             ("filters", filters(events)),
             ("cards", self.cards(events, timelines)),
             ("timelines", escape_script(&timeline::table(events, timelines).to_string())),
