@@ -118,6 +118,6 @@ fn suspicion_is_the_last_line() {
     thought.suspicion = Some(0.25);
     let lines = lines(&thought);
     assert_eq!(lines.len(), COUNT);
-    let last = lines.last().unwrap();
+    let last = lines.last().expect("there are always lines");
     assert_eq!((last.text.as_str(), last.bar, last.cells[1].as_str()), ("suspects hindrance", 0.25, "0.25"));
 }

@@ -62,7 +62,9 @@ export function showThoughts(panel, report) {
       ...most.map((it) => share(it.action, it.visits / visits, String(it.visits))),
       ...(intents.length > 0 ? [note("the other wants:")] : []),
       ...intents.slice(0, 4).map((it) => share(it.words, it.probability, `${Math.round(100 * it.probability)} %`)),
-      ...(suspicion === undefined ? [] : [share("suspects hindrance", suspicion, `${Math.round(100 * suspicion)} %`)]),
+      ...(suspicion === undefined
+        ? []
+        : [share("suspects hindrance", suspicion, `${Math.round(100 * suspicion)} %`)]),
     ];
   }));
 }
