@@ -95,3 +95,12 @@ impl AscribedPolicy for HabitPolicy {
         weights
     }
 }
+
+/// Makes weights sum up to 1 and mixes in a share of their prior.
+pub(crate) fn normalise(weights: &mut [f64], prior: impl Iterator<Item = f64>, forgetting: f64) {
+    let sum: f64 = weights.iter().sum();
+    for (weight, prior) in weights.iter_mut().zip(prior) {
+        let share = if sum > 0.0 { *weight / sum } else { prior };
+        *weight = (1.0 - forgetting) * share + forgetting * prior;
+    }
+}

@@ -1,7 +1,7 @@
 //! Pretexts: a hinderer of level 2 knows that the other infers its intent from its actions.
 
 use crate::{
-    ascription::{ACTIONS, AscribedPolicy, HabitPolicy, TheoryParameters},
+    ascription::{self, ACTIONS, AscribedPolicy, HabitPolicy, TheoryParameters},
     objective::Objective,
 };
 use phase_model::{Action, State};
@@ -135,9 +135,5 @@ pub(crate) fn learn(
             *weight *= libm::pow(*likelihood, theory.inverse_temperature);
         }
     }
-    let sum: f64 = weights.iter().sum();
-    for (weight, prior) in weights.iter_mut().zip(prior) {
-        let learnt = if sum > 0.0 { *weight / sum } else { *prior };
-        *weight = (1.0 - share) * learnt + share * prior;
-    }
+    ascription::normalise(weights, prior.iter().copied(), share);
 }

@@ -2,7 +2,7 @@
 
 use crate::{
     PhaseParameters,
-    ascription::{ACTIONS, AscribedPolicy, HabitPolicy, TheoryParameters},
+    ascription::{self, ACTIONS, AscribedPolicy, HabitPolicy, TheoryParameters},
     objective::Objective,
 };
 use phase_model::{
@@ -351,10 +351,6 @@ fn spread(weights: &[f64], count: usize) -> Vec<usize> {
 
 /// Makes weights sum up to 1 and mixes in a share of the uniform prior.
 fn normalise(weights: &mut [f64], forgetting: f64) {
-    let sum: f64 = weights.iter().sum();
     let uniform = 1.0 / weights.len() as f64;
-    for weight in weights {
-        let share = if sum > 0.0 { *weight / sum } else { uniform };
-        *weight = (1.0 - forgetting) * share + forgetting * uniform;
-    }
+    ascription::normalise(weights, core::iter::repeat(uniform), forgetting);
 }
