@@ -29,8 +29,9 @@ pub struct MindOptions {
     /// Published minds draw the random numbers of the original, which repeat in every search
     #[arg(long)]
     pub original_random: bool,
-    /// POMCP simulations a decision, 1 to 1000000 [default: 1000; in SIMPLE 50 of our own minds, none of
-    /// published ones, for which a network stands, and 100 in `simple-published`, without --original-random]
+    /// POMCP simulations a decision, 1 to 1000000 [default: 1000, or the preset's; in SIMPLE 50 of our own
+    /// minds, none of published ones, for which a network stands, and 100 in `simple-published`, without
+    /// --original-random]
     #[arg(long, value_name = "N", value_parser = value_parser!(u32).range(SIMULATIONS.bounds()))]
     pub simulations: Option<u32>,
 }
@@ -61,7 +62,7 @@ pub struct SimulationOptions {
     pub foresight: Option<Foresight>,
     /// Priors of the actions in a search by our own minds: `habits`, or `network`, the policy network, or
     /// `network-alone`, which takes what the network says and does not search; published minds have no
-    /// priors, or `network-alone` [default: habits]
+    /// priors, or `network-alone` [default: habits, or the preset's]
     #[arg(long, value_name = "PRIOR", hide_possible_values = true,
         value_parser = named(Prior::ALL, Prior::name))]
     pub prior: Option<Prior>,

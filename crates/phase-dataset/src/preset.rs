@@ -12,6 +12,7 @@ use phase_model::{
 };
 use phase_sampler::{About, Stance, Variant};
 use serde::Deserialize;
+use serde_json::Value;
 use std::{
     collections::{BTreeMap, BTreeSet},
     path::Path,
@@ -45,6 +46,9 @@ pub struct Preset {
     /// there are no blocks, of event b of each variant; the list repeats. If it is empty, all agents know.
     #[serde(default)]
     pub levels: Vec<Level>,
+    /// Parameters of the agents' minds that replace the defaults: an object as `--parameters` takes. Whoever
+    /// makes minds checks it.
+    pub minds: Option<Value>,
     /// Conditions that an event has to satisfy; without them the first scene drawn is accepted.
     pub selection: Option<Selection>,
     /// Composition of a dataset in which each event has bodies of its own.

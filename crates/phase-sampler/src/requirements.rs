@@ -8,8 +8,8 @@ use crate::{
     hiding::Hiding,
 };
 use phase_model::{
-    AgentId, Entity, EventKind, Goal, LandmarkId, ObjectId, RoomId, Scene, Sign, Strength, arena::LANDMARKS,
-    layout::room_of,
+    AgentId, Entity, EventKind, Goal, LandmarkId, ObjectId, RoomId, Scene, Sign, Strength, Vec2,
+    arena::LANDMARKS, layout::room_of,
 };
 use phase_navigation::{IMPASSABLE_COST, Map};
 use phase_perception::sees;
@@ -181,6 +181,27 @@ fn is_placed(variant: Variant, scene: &Scene) -> bool {
         Variant::Compete => {
             let rooms = [first, goal].map(|goal| goal.landmark().map(LandmarkId::room));
             !rooms.contains(&Some(place)) && near.max(far) <= MAX_ARRIVAL
+        }
+        _ => true,
+    }
+}
+
+/// Whether two that compete for an object, or chase, have to do with each other soon. Of competitors the one
+/// that comes to the object first has a short way there, and is no stronger than the other, so that both get
+/// it their way. Always true for other variants.
+pub(crate) fn meet_soon(variant: Variant, scene: &Scene) -> bool {
+    let physics = scene.physics();
+    let map = Map::new(scene.layout);
+    let way = |role: usize, to: Vec2| {
+        let from = scene.agents[role].start.position;
+        map.route_cost(from, to, physics.agents[role].width(), map.gaps(), IMPASSABLE_COST)
+    };
+    match (variant, object_of(scene.agents[1].goal)) {
+        (Variant::Chase, _) => way(0, scene.agents[1].start.position) <= MAX_ARRIVAL,
+        (Variant::Compete, Some(object)) => {
+            let ways = [0, 1].map(|role| way(role, scene.objects[object.index()].start.position));
+            let first = usize::from(ways[1] < ways[0]);
+            ways[first] <= MAX_BY && scene.agents[first].strength <= scene.agents[1 - first].strength
         }
         _ => true,
     }

@@ -127,7 +127,8 @@ impl Stage {
     fn may_allow(&self, part: Part, random: &mut impl Rng) -> bool {
         WAYS.iter().any(|&(agents_swapped, objects_swapped)| {
             let scene = self.assigned(part, agents_swapped, objects_swapped, random);
-            requirements::may_be_playable(part.variant, &scene)
+            requirements::meet_soon(part.variant, &scene)
+                && requirements::may_be_playable(part.variant, &scene)
         })
     }
 
@@ -138,7 +139,9 @@ impl Stage {
         for (agents_swapped, objects_swapped) in ways {
             for _ in 0..STRENGTH_DRAWS {
                 let scene = self.assigned(part, agents_swapped, objects_swapped, random);
-                if requirements::is_playable(part.variant, &scene, true) {
+                if requirements::meet_soon(part.variant, &scene)
+                    && requirements::is_playable(part.variant, &scene, true)
+                {
                     return Some(if agents_swapped { recipe::exchanged(&scene) } else { scene });
                 }
             }

@@ -1,7 +1,7 @@
 //! Stages that several variants share.
 
 use phase_model::{
-    AgentId, Attitude, Entity, Goal, Layout, Relation, arena,
+    AgentId, Attitude, Entity, Goal, Layout, Relation, Scene, Sign, arena,
     random::{Purpose, stream},
 };
 use phase_navigation::{IMPASSABLE_COST, Map};
@@ -79,6 +79,37 @@ fn objects_are_handed_over_on_their_way() {
         let detour = way(from, past, width) + way(past, to, width) - way(from, to, width);
         // There and back over 2 u.
         assert!(detour <= 4.01, "{k}: {detour}");
+    }
+}
+
+/// Of two competitors the one with the shorter way to the object has at most 8 u to go, and is no stronger
+/// than the other. A chaser has at most 14 u to go.
+#[test]
+fn competitors_and_chasers_meet_soon() {
+    let mut layouts: Vec<Layout> = Layout::all_used().collect();
+    for k in 0..12 {
+        let mut random = stream(11, Purpose::Stage, k);
+        layouts.rotate_left(7);
+        let [compete, chase] = [Variant::Compete, Variant::Chase];
+        let parts = parts(&[Variant::Move, compete, chase], k as usize);
+        let stage = Stage::sample(&parts, &layouts, Starts::Near, &mut random).unwrap();
+        let map = Map::new(stage.layout);
+        let way = |scene: &Scene, agent: AgentId, to: Entity| {
+            let state = scene.initial_state();
+            let width = scene.physics().agents[agent].width();
+            let [from, to] = [Entity::Agent(agent), to].map(|it| state.position(it));
+            map.route_cost(from, to, width, map.gaps(), IMPASSABLE_COST)
+        };
+        let scene = stage.scene(parts[1], &mut random).unwrap();
+        let ways = AgentId::ALL.map(|agent| way(&scene, agent, scene.agents[0].goal.subject()));
+        let first = if ways[1] < ways[0] { AgentId::ONE } else { AgentId::ZERO };
+        assert!(ways[first.index()] <= 8.0, "{k}: {ways:?}");
+        assert!(scene.agents[first].strength <= scene.agents[first.other()].strength, "{k}");
+
+        let scene = stage.scene(parts[2], &mut random).unwrap();
+        let chases = |agent: &AgentId| scene.agents[*agent].goal.sign() == Sign::Positive;
+        let chaser = AgentId::ALL.into_iter().find(chases).unwrap();
+        assert!(way(&scene, chaser, Entity::Agent(chaser.other())) <= 14.0, "{k}");
     }
 }
 

@@ -149,3 +149,42 @@ fn without_a_folder_it_names_its_own() {
     let told = succeed(folder.path(), &[&arguments[..], &["--engine", "forward"]].concat());
     assert!(told.contains("out/demo-seed9-1-forward"), "{told}");
 }
+
+/// Writes a preset of one event whose member `minds` is this JSON.
+fn write_preset(path: &Path, minds: &str) {
+    let text = format!(
+        r#"{{"format": "phase-preset/3", "name": "own", "seed": 3, "minds": {minds}, "layouts": {{"all": [0]}},
+        "groups": [{{"variant": "places", "layouts": "all", "events": 1}}]}}"#
+    );
+    fs::write(path.join("own.json"), text).expect("written");
+}
+
+/// A preset's minds replace the defaults, and options replace those of the preset.
+#[test]
+fn a_preset_can_say_how_minds_search() {
+    const MAKE: [&str; 6] = ["gen-dataset", "--preset", "own.json", "--no-video", "--max-steps", "3"];
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path();
+    let minds = |out: &str, more: &[&str]| {
+        succeed(path, &[&MAKE, &["--out", out][..], more].concat());
+        let manifest = Manifest::read(&path.join(out).join("manifest.json")).expect("a manifest");
+        let minds = &manifest.settings["minds"];
+        ["kind", "prior", "simulations"].map(|name| minds[name].to_string().replace('"', ""))
+    };
+    write_preset(path, r#"{"prior": "network", "simulations": 7}"#);
+    assert_eq!(minds("given", &[]), ["phase", "network", "7"]);
+    // Files leave out `habits`, the default.
+    assert_eq!(minds("asked", &["--prior", "habits"]), ["phase", "null", "7"]);
+    let published = minds("published", &["--minds", "published", "--simulations", "5"]);
+    assert_eq!(published, ["published", "null", "5"]);
+
+    for (given, rule) in [
+        (r#"{"priors": "network"}"#, "own.json: preset: in `minds`, field `priors` is no parameter of"),
+        (r#"{"simulations": 0}"#, "simulations"),
+        ("[]", "parameters of minds must be an object"),
+    ] {
+        write_preset(path, given);
+        let sentence = refuse(path, &[&MAKE, &["--out", "refused"][..]].concat());
+        assert!(sentence.contains(rule), "{sentence}");
+    }
+}

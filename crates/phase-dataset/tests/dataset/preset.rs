@@ -254,7 +254,7 @@ fn what_is_no_preset_is_refused() {
         (&PHASE_500.replace("\"blocks\": {", "\"groups\": [{}], \"blocks\": {"), "variant"),
         (&PHASE_500.replace("\"unseen\", \"blocks\": 5", "\"hidden\", \"blocks\": 5"), "hidden"),
         (&PHASE_500.replace("1000,", "0,"), "attempt"),
-        (&PHASE_500.replace("\"max_steps\": 64", "\"max_steps\": 10"), "min_steps"),
+        (&PHASE_500.replace("\"max_steps\": 72", "\"max_steps\": 10"), "min_steps"),
         (&PHASE_500.replace("\"validation\"", "\"holdout\""), "holdout"),
         // No memory for them is asked for before they are refused.
         (
@@ -272,7 +272,7 @@ fn what_is_no_preset_is_refused() {
         ),
         (&PHASE_500.replace("\"blocks\": 64", "\"blocks\": 999999"), "in all"),
         (
-            &PHASE_500.replace("\"max_steps\": 64", "\"max_steps\": 1000000000"),
+            &PHASE_500.replace("\"max_steps\": 72", "\"max_steps\": 1000000000"),
             "`selection.max_steps` must be 1 to 10000",
         ),
         (&PHASE_500.replace("1000,", "18446744073709551615,"), "`selection.attempts` must be 1 to 1000000"),

@@ -19,6 +19,7 @@ use phase_files::{
     regular,
     run::{self, Run},
 };
+use phase_minds::{MindKind, MindParameters};
 use phase_model::arena::STEP_VIDEO_SECONDS;
 use phase_sim::{Engine, SimulationSettings};
 use serde_json::{Value, json};
@@ -75,7 +76,8 @@ impl DatasetPlan {
         let seed = generation.seed.unwrap_or(preset.seed);
         let command = generation.command(count, seed);
         let videos = generation.videos;
-        let mut settings = generation.effort.settings()?;
+        let minds = minds_of(&preset, place, generation.effort.minds.kind)?;
+        let mut settings = generation.effort.settings_with(minds)?;
         if let Some(steps) = form.steps {
             if generation.effort.max_steps.is_some() {
                 return Err(RunError::Usage(
@@ -171,6 +173,17 @@ impl DatasetPlan {
     pub fn run(&self) -> Run {
         run_of(&self.whole(), self.shard)
     }
+}
+
+/// The parameters of the agents' minds: those of the preset, unless minds of another kind are wanted.
+fn minds_of(preset: &Preset, place: &Path, wanted: Option<MindKind>) -> Result<MindParameters, RunError> {
+    let defaults = MindParameters::of(wanted.unwrap_or_default());
+    let Some(given) = &preset.minds else { return Ok(defaults) };
+    let read = MindParameters::from_overrides(given.clone()).map_err(|error| FileError {
+        file: place.to_owned(),
+        problem: Problem::Shape { what: "preset", rule: format!("in `minds`, {error}") },
+    })?;
+    Ok(if wanted.is_none_or(|wanted| wanted == read.kind()) { read } else { defaults })
 }
 
 /// A preset that is bundled with the program, by its name, or of a file.
