@@ -28,6 +28,13 @@ pub struct EventSlot {
 }
 
 impl EventSlot {
+    /// Its part in the block whose bodies it shares.
+    #[must_use]
+    pub fn part(&self) -> Part {
+        let Self { variant, goal_index, block, .. } = *self;
+        Part { variant, goal_index, meets_soon: block.is_some_and(|block| block.meet_soon) }
+    }
+
     /// A scene of this slot with the knowledge of its agents.
     #[must_use]
     pub fn with_knowledge(&self, mut scene: Scene) -> Scene {
@@ -47,6 +54,8 @@ pub struct BlockPlace {
     pub first: usize,
     /// Events in it.
     pub events: usize,
+    /// Whether those who compete or chase in it start where they meet soon.
+    pub meet_soon: bool,
 }
 
 /// A place for a set of events that differ in the stance of one agent.
@@ -133,7 +142,12 @@ impl Composition {
     fn add_blocks(&mut self, blocks: &Blocks) {
         let events = blocks.columns.len();
         for (number, group) in interleaved(&blocks.groups, |group| group.blocks).into_iter().enumerate() {
-            let block = Some(BlockPlace { block: number, first: self.slots.len(), events });
+            let block = Some(BlockPlace {
+                block: number,
+                first: self.slots.len(),
+                events,
+                meet_soon: blocks.meet_soon,
+            });
             for column in &blocks.columns {
                 let listed = column[number % column.len()];
                 let variant = group.replace.get(&listed).copied().unwrap_or(listed);
@@ -174,7 +188,7 @@ impl Composition {
     #[must_use]
     pub fn parts(&self, place: BlockPlace) -> Vec<Part> {
         let slots = (place.first..place.first + place.events).map(|index| self.slot(index));
-        slots.map(|slot| Part { variant: slot.variant, goal_index: slot.goal_index }).collect()
+        slots.map(|slot| slot.part()).collect()
     }
 }
 

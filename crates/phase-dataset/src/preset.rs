@@ -133,6 +133,9 @@ pub struct PresetGroup {
 pub struct Blocks {
     /// For each event of a block, the variants that it has in turn. The first column proposes the bodies.
     pub columns: Vec<Vec<Variant>>,
+    /// Whether those who compete or chase start where they meet soon ([`Part`](phase_sampler::Part)).
+    #[serde(default)]
+    pub meet_soon: bool,
     /// The blocks, grouped by the part of the dataset that they belong to.
     pub groups: Vec<BlockGroup>,
 }

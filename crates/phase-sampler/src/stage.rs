@@ -33,6 +33,10 @@ pub struct Part {
     pub variant: Variant,
     /// Index of the pair of goals to be tried first; see [`Variant::goals`].
     pub goal_index: usize,
+    /// Whether two that compete or chase have to meet soon: the chaser has at most 14 u to go, and of
+    /// competitors the one with the shorter way to the object has at most 8 u and is no stronger than the
+    /// other.
+    pub meets_soon: bool,
 }
 
 /// The goals that a part may have.
@@ -47,9 +51,13 @@ enum Goals {
 impl Part {
     /// The part with each of the goals that it may have.
     fn with(self, goals: Goals) -> impl Iterator<Item = Self> {
-        let Self { variant, goal_index } = self;
-        let count = if goals == Goals::Own { 1 } else { variant.goal_count() };
-        (goal_index..goal_index + count).map(move |goal_index| Self { variant, goal_index })
+        let count = if goals == Goals::Own { 1 } else { self.variant.goal_count() };
+        (self.goal_index..self.goal_index + count).map(move |goal_index| Self { goal_index, ..self })
+    }
+
+    /// Whether the two of a scene, in which role 0 is agent 0, meet as soon as they have to.
+    fn suits(self, scene: &Scene) -> bool {
+        !self.meets_soon || requirements::meet_soon(self.variant, scene)
     }
 }
 
@@ -87,7 +95,7 @@ impl Stage {
                 let Some(layout) = layouts.get((draw / DRAWS_PER_LAYOUT) % layouts.len().max(1)) else {
                     break;
                 };
-                let Part { variant, goal_index } = lead;
+                let Part { variant, goal_index, .. } = lead;
                 let request = Request { variant, goal_index, layouts: &[*layout], starts };
                 let Some(scene) = recipe::propose(&request, Objects::Two, random) else { continue };
                 let stage = Self::of(&scene);
@@ -127,8 +135,7 @@ impl Stage {
     fn may_allow(&self, part: Part, random: &mut impl Rng) -> bool {
         WAYS.iter().any(|&(agents_swapped, objects_swapped)| {
             let scene = self.assigned(part, agents_swapped, objects_swapped, random);
-            requirements::meet_soon(part.variant, &scene)
-                && requirements::may_be_playable(part.variant, &scene)
+            part.suits(&scene) && requirements::may_be_playable(part.variant, &scene)
         })
     }
 
@@ -139,9 +146,7 @@ impl Stage {
         for (agents_swapped, objects_swapped) in ways {
             for _ in 0..STRENGTH_DRAWS {
                 let scene = self.assigned(part, agents_swapped, objects_swapped, random);
-                if requirements::meet_soon(part.variant, &scene)
-                    && requirements::is_playable(part.variant, &scene, true)
-                {
+                if part.suits(&scene) && requirements::is_playable(part.variant, &scene, true) {
                     return Some(if agents_swapped { recipe::exchanged(&scene) } else { scene });
                 }
             }
@@ -168,7 +173,7 @@ impl Stage {
         objects_swapped: bool,
         random: &mut impl Rng,
     ) -> Scene {
-        let Part { variant, goal_index } = part;
+        let Part { variant, goal_index, .. } = part;
         let goals = variant.goals(goal_index);
         let attitudes = [variant.attitude(), Attitude::Neutral];
         let strengths = requirements::strengths(variant);

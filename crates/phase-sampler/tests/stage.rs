@@ -9,7 +9,7 @@ use phase_sampler::{Part, SampleError, Stage, Starts, Variant};
 use std::collections::BTreeSet;
 
 fn parts(variants: &[Variant], goal_index: usize) -> Vec<Part> {
-    variants.iter().map(|&variant| Part { variant, goal_index }).collect()
+    variants.iter().map(|&variant| Part { variant, goal_index, meets_soon: true }).collect()
 }
 
 /// Bodies regardless of their directions, of strengths, goals and attitudes.
@@ -61,8 +61,7 @@ fn objects_are_handed_over_on_their_way() {
             &mut random,
         )
         .unwrap();
-        let scene =
-            stage.cast(Part { variant: Variant::HandOver, goal_index: k as usize }, &mut random).unwrap();
+        let scene = stage.cast(parts(&[Variant::HandOver], k as usize)[0], &mut random).unwrap();
         let is_helpee = |agent: &AgentId| scene.agents[*agent].attitude == Attitude::Neutral;
         let helpee = AgentId::ALL.into_iter().find(is_helpee).unwrap();
         let Goal::ObjectOnLandmark { object, landmark, .. } = scene.agents[helpee].goal else {

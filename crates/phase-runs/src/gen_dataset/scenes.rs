@@ -10,7 +10,7 @@ use phase_model::{
     Layout, Relation, Scene,
     random::{self, Pcg64Mcg, Purpose},
 };
-use phase_sampler::{Contrast, ContrastRequest, Part, Request, SampleError, Stage, Starts, sample};
+use phase_sampler::{Contrast, ContrastRequest, Request, SampleError, Stage, Starts, sample};
 use phase_sim::SimulationSettings;
 use rand::{RngExt, seq::SliceRandom};
 use std::{
@@ -47,7 +47,7 @@ pub fn any_scene(preset: &Preset, seed: u64) -> Result<Scene, SampleError> {
     let layouts = preset.pool(layouts);
     let scene = match block {
         Some(place) => Stage::sample(&composition.parts(place), &layouts, starts, &mut random)?
-            .scene(Part { variant, goal_index }, &mut random)?,
+            .scene(slot.part(), &mut random)?,
         None => sample(&Request { variant, goal_index, layouts: &layouts, starts }, &mut random)?,
     };
     Ok(slot.with_knowledge(scene))
@@ -103,7 +103,7 @@ impl<'a> Scenes<'a> {
         let scene = match slot.block {
             Some(place) => {
                 let stage = self.stage(place, layouts, number / ATTEMPTS_PER_STAGE)?;
-                stage.scene(Part { variant, goal_index }, &mut random)?
+                stage.scene(slot.part(), &mut random)?
             }
             None => sample(&Request { variant, goal_index, layouts, starts: self.starts }, &mut random)?,
         };
