@@ -146,14 +146,14 @@ fn lengths_are_the_same_for_all_kinds() {
     for slot in 0..6100 {
         let length = |relation, seed| selection.sampled_length(relation, seed, slot).expect("is drawn");
         let (min, max) = length(Relation::Friendly, 1);
-        assert!(min == max && (36..=64).contains(&max));
+        assert!(min == max && (44..=72).contains(&max));
         assert_eq!(length(Relation::Adversarial, 2), (min, max));
         assert_eq!(length(Relation::Neutral, 3), (min, max));
         sum += max;
     }
     let mean = sum as f64 / 6100.0;
     // Five standard errors of a standard deviation of 7.
-    assert!((mean - 36.0 - 28.0 * 57.0 / 174.0).abs() < 0.45, "{mean}");
+    assert!((mean - 44.0 - 28.0 * 57.0 / 174.0).abs() < 0.45, "{mean}");
 }
 
 /// Every block has each relation, whatever its bodies are drawn for, and is in one part of the dataset.
