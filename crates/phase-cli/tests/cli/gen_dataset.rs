@@ -179,7 +179,10 @@ fn a_preset_can_say_how_minds_search() {
     assert_eq!(published, ["published", "null", "5"]);
 
     for (given, rule) in [
-        (r#"{"priors": "network"}"#, "own.json: preset: in `minds`, field `priors` is no parameter of"),
+        (
+            r#"{"priors": "network"}"#,
+            "own.json: is not a complete preset: in `minds`, field `priors` is no parameter of",
+        ),
         (r#"{"simulations": 0}"#, "simulations"),
         ("[]", "parameters of minds must be an object"),
     ] {
