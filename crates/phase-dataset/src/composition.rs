@@ -32,7 +32,7 @@ impl EventSlot {
     #[must_use]
     pub fn part(&self) -> Part {
         let Self { variant, goal_index, block, .. } = *self;
-        Part { variant, goal_index, meets_soon: block.is_some_and(|block| block.meet_soon) }
+        Part { variant, goal_index, meet_soon: block.is_some_and(|block| block.meet_soon) }
     }
 
     /// A scene of this slot with the knowledge of its agents.

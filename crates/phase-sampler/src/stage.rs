@@ -36,7 +36,7 @@ pub struct Part {
     /// Whether two that compete or chase have to meet soon: the chaser has at most 14 u to go, and of
     /// competitors the one with the shorter way to the object has at most 8 u and is no stronger than the
     /// other.
-    pub meets_soon: bool,
+    pub meet_soon: bool,
 }
 
 /// The goals that a part may have.
@@ -57,7 +57,7 @@ impl Part {
 
     /// Whether the two of a scene, in which role 0 is agent 0, meet as soon as they have to.
     fn suits(self, scene: &Scene) -> bool {
-        !self.meets_soon || requirements::meet_soon(self.variant, scene)
+        !self.meet_soon || requirements::meet_soon(self.variant, scene)
     }
 }
 

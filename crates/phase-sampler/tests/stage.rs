@@ -9,7 +9,7 @@ use phase_sampler::{Part, SampleError, Stage, Starts, Variant};
 use std::collections::BTreeSet;
 
 fn parts(variants: &[Variant], goal_index: usize) -> Vec<Part> {
-    variants.iter().map(|&variant| Part { variant, goal_index, meets_soon: true }).collect()
+    variants.iter().map(|&variant| Part { variant, goal_index, meet_soon: true }).collect()
 }
 
 /// Bodies regardless of their directions, of strengths, goals and attitudes.
@@ -61,7 +61,8 @@ fn objects_are_handed_over_on_their_way() {
             &mut random,
         )
         .unwrap();
-        let scene = stage.cast(parts(&[Variant::HandOver], k as usize)[0], &mut random).unwrap();
+        let part = parts(&[Variant::HandOver], k as usize)[0];
+        let scene = stage.cast(part, &mut random).expect("the stage allows it");
         let is_helpee = |agent: &AgentId| scene.agents[*agent].attitude == Attitude::Neutral;
         let helpee = AgentId::ALL.into_iter().find(is_helpee).unwrap();
         let Goal::ObjectOnLandmark { object, landmark, .. } = scene.agents[helpee].goal else {
@@ -91,7 +92,7 @@ fn competitors_and_chasers_meet_soon() {
         layouts.rotate_left(7);
         let [compete, chase] = [Variant::Compete, Variant::Chase];
         let parts = parts(&[Variant::Move, compete, chase], k as usize);
-        let stage = Stage::sample(&parts, &layouts, Starts::Near, &mut random).unwrap();
+        let stage = Stage::sample(&parts, &layouts, Starts::Near, &mut random).expect("a stage");
         let map = Map::new(stage.layout);
         let way = |scene: &Scene, agent: AgentId, to: Entity| {
             let state = scene.initial_state();
@@ -99,15 +100,15 @@ fn competitors_and_chasers_meet_soon() {
             let [from, to] = [Entity::Agent(agent), to].map(|it| state.position(it));
             map.route_cost(from, to, width, map.gaps(), IMPASSABLE_COST)
         };
-        let scene = stage.scene(parts[1], &mut random).unwrap();
+        let scene = stage.scene(parts[1], &mut random).expect("a scene");
         let ways = AgentId::ALL.map(|agent| way(&scene, agent, scene.agents[0].goal.subject()));
         let first = if ways[1] < ways[0] { AgentId::ONE } else { AgentId::ZERO };
         assert!(ways[first.index()] <= 8.0, "{k}: {ways:?}");
         assert!(scene.agents[first].strength <= scene.agents[first.other()].strength, "{k}");
 
-        let scene = stage.scene(parts[2], &mut random).unwrap();
+        let scene = stage.scene(parts[2], &mut random).expect("a scene");
         let chases = |agent: &AgentId| scene.agents[*agent].goal.sign() == Sign::Positive;
-        let chaser = AgentId::ALL.into_iter().find(chases).unwrap();
+        let chaser = AgentId::ALL.into_iter().find(chases).expect("one chases");
         assert!(way(&scene, chaser, Entity::Agent(chaser.other())) <= 14.0, "{k}");
     }
 }
