@@ -1,7 +1,7 @@
 //! Inverse dynamics, and all of SIMPLE beside it. Inverse dynamics of whole events: six simulated ones, one
 //! of each kind, and the recordings of the file `PHASE_EVENTS`.
 
-use core::{hint::black_box, ops::ControlFlow};
+use core::{hint::black_box, ops::ControlFlow, time::Duration};
 use criterion::{Criterion, SamplingMode};
 use phase_dataset::phase_events;
 use phase_event::{ObservedEvent, Recording};
@@ -12,7 +12,7 @@ use phase_model::{
 };
 use phase_sim::SimulationSettings;
 use phase_simple::{ForecastSettings, MotionTracker, Simple, futures};
-use std::path::Path;
+use std::{path::Path, time::Instant};
 
 /// Of the recordings, every so many are explained.
 const THINNED: usize = 5;
@@ -69,7 +69,8 @@ fn bench(criterion: &mut Criterion, name: &str, events: &[ObservedEvent]) {
     group.finish();
 }
 
-/// Goals of whole events, and futures after their first seconds.
+/// Goals of whole events, futures after their first seconds, and goals after every row as it is watched; and
+/// the time of single rows.
 fn bench_simple(criterion: &mut Criterion, events: &[ObservedEvent]) {
     let simple = Simple::bundled().expect("sound files");
     let tick = &mut || ControlFlow::Continue(());
@@ -83,6 +84,11 @@ fn bench_simple(criterion: &mut Criterion, events: &[ObservedEvent]) {
         }
         black_box(inference);
     };
+    let mut took = watch(&simple, &events.iter().collect::<Vec<_>>());
+    took.sort();
+    let mean = took.iter().sum::<Duration>() / took.len().max(1) as u32;
+    let part = |share: f64| took[(share * took.len() as f64) as usize];
+    println!("SIMPLE/a row: mean {mean:?}, median {:?}, 99th percentile {:?}", part(0.5), part(0.99));
     let mut group = criterion.benchmark_group("SIMPLE/recordings");
     group.sample_size(10).sampling_mode(SamplingMode::Flat);
     for (name, watched, ahead) in [("goals", usize::MAX, 0), ("futures", WATCHED, WATCHED)] {
@@ -94,5 +100,21 @@ fn bench_simple(criterion: &mut Criterion, events: &[ObservedEvent]) {
             });
         });
     }
+    let watched: Vec<&ObservedEvent> = events.iter().step_by(UNDERSTOOD).collect();
+    group.bench_function("rows", |bencher| bencher.iter(|| watch(&simple, &watched)));
     group.finish();
+}
+
+/// The time that every row of some events takes an observer.
+fn watch(simple: &Simple, events: &[&ObservedEvent]) -> Vec<Duration> {
+    let mut took = Vec::new();
+    for event in events {
+        let mut observer = simple.observer(&event.prefix(0), 1).expect("inverse planning");
+        for row in &event.rows()[1..] {
+            let begun = Instant::now();
+            black_box(observer.push(*row).expect("a sound row"));
+            took.push(begun.elapsed());
+        }
+    }
+    took
 }

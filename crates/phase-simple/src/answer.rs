@@ -117,15 +117,26 @@ pub(crate) fn log_evidence(joint: &[(Hypothesis, f64)]) -> f64 {
     log_sum_exp(joint.iter().map(|(_, log)| *log))
 }
 
-/// The posterior averaged over kinds of minds with an even prior, and the probability of each kind.
-pub(crate) fn mixture(kinds: &[KindEvidence]) -> (Posterior, Vec<f64>) {
+/// The probability of each kind of minds, with an even prior.
+pub(crate) fn probabilities(kinds: &[KindEvidence]) -> impl Iterator<Item = f64> {
     let mut shares: Vec<f64> = kinds.iter().map(|kind| kind.log_evidence).collect();
     log_softmax(&mut shares);
-    let weighted = kinds.iter().zip(&shares).flat_map(|(kind, share)| {
+    shares.into_iter().map(libm::exp)
+}
+
+/// ln P(Y, kind | motion) of every hypothesis of every kind of minds, with an even prior over kinds.
+pub(crate) fn weighted(kinds: &[KindEvidence]) -> impl Iterator<Item = (Hypothesis, f64)> {
+    let mut shares: Vec<f64> = kinds.iter().map(|kind| kind.log_evidence).collect();
+    log_softmax(&mut shares);
+    kinds.iter().zip(shares).flat_map(|(kind, share)| {
         let shift = share - log_evidence(&kind.joint);
         kind.joint.iter().map(move |&(hypothesis, log)| (hypothesis, log + shift))
-    });
-    (Posterior::new(weighted), shares.iter().map(|share| libm::exp(*share)).collect())
+    })
+}
+
+/// The posterior averaged over kinds of minds, and the probability of each kind.
+pub(crate) fn mixture(kinds: &[KindEvidence]) -> (Posterior, Vec<f64>) {
+    (Posterior::new(weighted(kinds)), probabilities(kinds).collect())
 }
 
 /// The answer to motion that minds and physics of PHASE cannot explain.

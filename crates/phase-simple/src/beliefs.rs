@@ -10,13 +10,36 @@ use phase_model::{
     random::{self, Pcg64Mcg, Purpose},
 };
 use phase_perception::Observation;
+use std::sync::OnceLock;
 
 /// One agent's belief at the end of every step, computed bottom-up: once for an event and shared by all
 /// hypotheses. Forces play no part in it, since an agent observes the outcome of its own actions.
 #[derive(Clone, Debug)]
 pub(crate) struct EstimatedBeliefs {
-    /// After each step, with the state of the random stream.
-    steps: Vec<(Box<dyn BeliefState>, Pcg64Mcg)>,
+    /// At the start and after each step but the last.
+    steps: Vec<Estimate>,
+    /// After the last step, if there is one. It matters only to who asks for it, and the next row may show
+    /// the state in another light.
+    last: Option<LastEstimate>,
+}
+
+/// A belief, with the state of the random stream.
+type Estimate = (Box<dyn BeliefState>, Pcg64Mcg);
+
+/// The belief after the last step, once somebody has asked for it.
+#[derive(Clone, Debug)]
+struct LastEstimate {
+    action: Action,
+    states: [State; 2],
+    estimate: OnceLock<Estimate>,
+}
+
+/// The belief after a step from one state to another.
+fn after((belief, random): &Estimate, action: Action, [before, state]: &[State; 2]) -> Estimate {
+    let (mut belief, mut random) = (belief.clone(), random.clone());
+    let observation: Observation = belief.observe(state);
+    belief.update(action, &observation, &between(before, state), &mut random);
+    (belief, random)
 }
 
 impl EstimatedBeliefs {
@@ -34,7 +57,7 @@ impl EstimatedBeliefs {
         let mut random = random::stream(seed, Purpose::Belief, agent.number().into());
         let seen = observe(minds.kind(), &physics, &states[0], agent);
         let first = belief(observed.layout(), &physics, minds, &seen, Some(&states[0]), &mut random);
-        let mut beliefs = Self { steps: vec![(first, random)] };
+        let mut beliefs = Self { steps: vec![(first, random)], last: None };
         beliefs.follow(states, &[], 1);
         beliefs
     }
@@ -52,7 +75,7 @@ impl EstimatedBeliefs {
         let mut random = random::stream(seed, Purpose::Belief, agent.number().into());
         let seen = first_observation(scene, minds.kind(), &states[0], agent);
         let first = belief_in(scene, minds, &seen, Some(&states[0]), &mut random);
-        let mut beliefs = Self { steps: vec![(first, random)] };
+        let mut beliefs = Self { steps: vec![(first, random)], last: None };
         beliefs.follow(states, actions, 1);
         beliefs
     }
@@ -62,13 +85,26 @@ impl EstimatedBeliefs {
     /// intent from what both do; where they are missing it is taken to apply no force.
     pub(crate) fn follow(&mut self, states: &[State], actions: &[Action], unchanged: usize) {
         self.steps.truncate(unchanged.max(1));
-        for state in &states[self.steps.len()..] {
-            let (mut belief, mut random) = self.steps[self.steps.len() - 1].clone();
-            let action = actions.get(self.steps.len() - 1).copied().unwrap_or(Action::NoForce);
-            let observation: Observation = belief.observe(state);
-            let before = states[self.steps.len() - 1];
-            belief.update(action, &observation, &between(&before, state), &mut random);
-            self.steps.push((belief, random));
+        self.last = None;
+        for step in self.steps.len()..states.len() {
+            let action = actions.get(step - 1).copied().unwrap_or(Action::NoForce);
+            let states_of_step = [states[step - 1], states[step]];
+            if step + 1 < states.len() {
+                self.steps.push(after(&self.steps[step - 1], action, &states_of_step));
+            } else {
+                self.last = Some(LastEstimate { action, states: states_of_step, estimate: OnceLock::new() });
+            }
+        }
+    }
+
+    /// The estimate after so many steps, or after the last.
+    fn estimate(&self, step: usize) -> &Estimate {
+        let before = &self.steps[self.steps.len() - 1];
+        match &self.last {
+            Some(LastEstimate { action, states, estimate }) if step >= self.steps.len() => {
+                estimate.get_or_init(|| after(before, *action, states))
+            }
+            _ => self.steps.get(step).unwrap_or(before),
         }
     }
 
@@ -76,7 +112,7 @@ impl EstimatedBeliefs {
     /// has observed until then in the event, and what it observes now.
     #[must_use]
     pub(crate) fn outlook(&self, step: usize, state: &State) -> Outlook {
-        let (known, _) = &self.steps[step.min(self.steps.len() - 1)];
+        let (known, _) = self.estimate(step);
         let observation = known.observe(state);
         let mut particles = known.particles().to_vec();
         particles.iter_mut().for_each(|particle| overwrite(particle, &observation));
@@ -86,16 +122,13 @@ impl EstimatedBeliefs {
 
     /// The belief at the end.
     pub(crate) fn last(&self) -> &dyn BeliefState {
-        &*self.steps[self.steps.len() - 1].0
+        &*self.estimate(usize::MAX).0
     }
 
-    /// The belief after the given number of steps, to continue from.
-    ///
-    /// # Panics
-    /// If the event has fewer steps.
+    /// The belief after the given number of steps, or after the last, to continue from.
     #[must_use]
     pub(crate) fn after(&self, step: usize) -> &dyn BeliefState {
-        &*self.steps[step].0
+        &*self.estimate(step).0
     }
 }
 

@@ -151,6 +151,9 @@ pub struct IntentEvidence {
     run: SimulationRun,
     /// The level of reasoning, if the agent does not know the other's goal.
     level: Option<Level>,
+    /// The policy of each decision that was looked at. It stays what it is when a later row shows the step
+    /// after the decision in another light.
+    policies: Vec<Option<ByChoice>>,
     /// By decision.
     chances: Vec<Option<Chance>>,
 }
@@ -169,7 +172,7 @@ impl IntentEvidence {
         strengths: [Strength; AGENT_COUNT],
     ) -> Result<Self, PomcpError> {
         let run = prepared.run(&Hypothesis::of_intent(intent, agent, others, strengths))?;
-        Ok(Self { agent, run, level: None, chances: Vec::new() })
+        Ok(Self::of(agent, run, None))
     }
 
     /// Evidence of no decision yet on an agent that helps or hinders whatever it takes the other to want,
@@ -184,7 +187,11 @@ impl IntentEvidence {
         level: Level,
     ) -> Result<Self, PomcpError> {
         let scene = uninformed::scene(prepared.observed(), prepared.motion(), agent, attitude, level);
-        Ok(Self { agent, run: prepared.run_in(&scene)?, level: Some(level), chances: Vec::new() })
+        Ok(Self::of(agent, prepared.run_in(&scene)?, Some(level)))
+    }
+
+    const fn of(agent: AgentId, run: SimulationRun, level: Option<Level>) -> Self {
+        Self { agent, run, level, policies: Vec::new(), chances: Vec::new() }
     }
 
     /// Lets the mind of the intent decide in every state that is looked at and is not yet part of the
@@ -211,32 +218,41 @@ impl IntentEvidence {
         likelihoods: &ActionLikelihoods,
         budget: &mut Budget,
     ) -> Result<bool, PomcpError> {
+        self.policies.resize(likelihoods.decisions(), None);
         self.chances.resize(likelihoods.decisions(), None);
         for decision in stride.of(likelihoods.decisions()) {
             if self.chances[decision].is_some() {
                 continue;
             }
-            if !budget.take() {
-                return Ok(false);
-            }
-            let step = likelihoods.step(decision);
-            let policy = match self.level.zip(prepared.uninformed(self.agent)) {
-                Some((level, beliefs)) => {
-                    policy_without_knowledge(prepared, &mut self.run, self.agent, step, beliefs.at(level))?
-                }
-                None => {
-                    let (action, thought) = prepared.decide(&mut self.run, self.agent, step)?;
-                    choice::policy_of(action, &thought)
-                }
+            let policy = match self.policies[decision] {
+                Some(known) => known,
+                None if !budget.take() => return Ok(false),
+                None => self.policy(prepared, likelihoods.step(decision))?,
             };
+            self.policies[decision] = Some(policy);
             let of_step = &likelihoods.of_decisions[decision][self.agent];
             self.chances[decision] = Some(Chance::of(&policy, of_step));
         }
         Ok(true)
     }
 
-    /// Forgets the steps after some rows that are explained as before.
+    /// The policy of the intent's mind at a step.
+    fn policy(&mut self, prepared: &PreparedEvent, step: usize) -> Result<ByChoice, PomcpError> {
+        match self.level.zip(prepared.uninformed(self.agent)) {
+            Some((level, beliefs)) => {
+                policy_without_knowledge(prepared, &mut self.run, self.agent, step, beliefs.at(level))
+            }
+            None => {
+                let (action, thought) = prepared.decide(&mut self.run, self.agent, step)?;
+                Ok(choice::policy_of(action, &thought))
+            }
+        }
+    }
+
+    /// Forgets the steps after some rows that are explained as before. The decision in the last of their
+    /// states is still the same, but not what led on from there.
     pub(crate) fn forget(&mut self, likelihoods: &ActionLikelihoods, rows: usize) {
+        self.policies.truncate(likelihoods.decisions_before(rows + 1));
         self.chances.truncate(likelihoods.decisions_before(rows));
     }
 

@@ -104,11 +104,8 @@ impl PreparedEvent {
         &self.agents
     }
 
-    /// The belief that an agent can be taken to have after so many steps, from what it could observe. All
-    /// intents share it.
-    ///
-    /// # Panics
-    /// If the event has fewer steps.
+    /// The belief that an agent can be taken to have after so many steps, or after all of them if there are
+    /// fewer, from what it could observe. All intents share it.
     #[must_use]
     pub fn belief(&self, agent: AgentId, step: usize) -> &dyn BeliefState {
         self.beliefs[agent].after(step)

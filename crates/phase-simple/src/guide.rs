@@ -12,7 +12,10 @@ use crate::{
 };
 use phase_model::{AGENT_COUNT, AgentId, Attitude, Goal, Strength};
 use serde::{Deserialize, Serialize};
-use std::{collections::BTreeSet, sync::Arc};
+use std::{
+    collections::{BTreeMap, BTreeSet},
+    sync::Arc,
+};
 
 /// The weight of a network's guess in inverse planning (docs/explanation/simple.md).
 #[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
@@ -47,6 +50,8 @@ pub(crate) struct Guess {
     intents: [WeightedIntents; AGENT_COUNT],
     /// Q, likeliest first.
     posterior: Posterior,
+    /// The place of each hypothesis in it.
+    places: BTreeMap<Hypothesis, usize>,
     /// The intents worth simulating.
     kept: [BTreeSet<Intent>; AGENT_COUNT],
 }
@@ -74,7 +79,9 @@ impl Guess {
                 break;
             }
         }
-        Self { intents, posterior, kept }
+        let hypotheses = posterior.hypotheses.iter().enumerate();
+        let places = hypotheses.map(|(place, (hypothesis, _))| (*hypothesis, place)).collect();
+        Self { intents, posterior, places, kept }
     }
 
     /// The intents that are worth simulating, likeliest first.
@@ -104,8 +111,14 @@ impl Guess {
     /// Adds the hypotheses that were not simulated to ln P(Y, motion) of those that were, such that the
     /// former keep the share that the guide gives them. If none was, the guide alone answers.
     pub(crate) fn complete(&self, mut joint: Vec<(Hypothesis, f64)>) -> Vec<(Hypothesis, f64)> {
-        let simulated: BTreeSet<Hypothesis> = joint.iter().map(|(hypothesis, _)| *hypothesis).collect();
-        let others = || self.posterior.hypotheses.iter().filter(|(it, _)| !simulated.contains(it));
+        let mut simulated = vec![false; self.posterior.hypotheses.len()];
+        for (hypothesis, _) in &joint {
+            if let Some(&place) = self.places.get(hypothesis) {
+                simulated[place] = true;
+            }
+        }
+        let all = || self.posterior.hypotheses.iter().zip(&simulated);
+        let others = || all().filter(|(_, simulated)| !**simulated).map(|(it, _)| it);
         let share: f64 = others().map(|(_, weight)| weight).sum();
         if joint.is_empty() {
             return self.posterior.hypotheses.iter().map(|&(it, weight)| (it, libm::log(weight))).collect();
@@ -130,28 +143,25 @@ pub(crate) fn intent_of(hypothesis: &Hypothesis, agent: AgentId) -> Intent {
 #[cfg(test)]
 mod tests {
     use super::{Guess, intent_of};
-    use crate::{Hypothesis, Intent, Posterior, intent::joint_logs, physical_goals};
+    use crate::{Guidance, Hypothesis, Intent, Posterior, physical_goals};
     use phase_model::{AGENT_COUNT, AgentId, Attitude, Strength};
-    use std::collections::BTreeSet;
 
     const STRENGTHS: [Strength; AGENT_COUNT] = [Strength::Weak, Strength::Mighty];
 
     /// A guess in which agent 0 likely helps agent 1 with its first goal.
-    fn guess(kept: [BTreeSet<Intent>; AGENT_COUNT]) -> Guess {
+    fn guess() -> Guess {
         let weigh = |agent: AgentId| {
             let first = physical_goals(AgentId::ONE, 2)[0];
             let likely = |intent: &Intent| intent.goal == first && intent.attitude != Attitude::Hinder;
             let log = |intent: Intent| (intent, if likely(&intent) { 3.0 } else { 0.0 });
             Intent::all(agent, 2).into_iter().map(log).collect()
         };
-        let intents = AgentId::ALL.map(weigh);
-        let posterior = Posterior::new(joint_logs(&intents, STRENGTHS, 14));
-        Guess { intents, posterior, kept }
+        Guess::new(&Guidance { exponent: 1.0, mass: 0.0 }, AgentId::ALL.map(weigh), 2, STRENGTHS)
     }
 
     #[test]
     fn the_intents_of_a_hypothesis_make_it_up() {
-        for (hypothesis, _) in guess(Default::default()).posterior.hypotheses {
+        for (hypothesis, _) in guess().posterior.hypotheses {
             let agent = hypothesis.social_agent().unwrap_or(AgentId::ZERO);
             let [own, others] = [agent, agent.other()].map(|agent| intent_of(&hypothesis, agent));
             assert_eq!(Hypothesis::of_intent(own, agent, others.goal, STRENGTHS), hypothesis);
@@ -162,7 +172,7 @@ mod tests {
     /// Whatever is simulated and with whatever result, the rest keeps its share and its proportions.
     #[test]
     fn what_is_left_out_keeps_its_probability() {
-        let guess = guess(Default::default());
+        let guess = guess();
         let simulated: Vec<_> = guess.posterior.hypotheses.iter().take(9).map(|it| (it.0, -1000.0)).collect();
         let share: f64 = guess.posterior.hypotheses.iter().skip(9).map(|it| it.1).sum();
         let all = Posterior::new(guess.complete(simulated));

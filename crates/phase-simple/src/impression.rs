@@ -6,7 +6,7 @@
 //! the time watched, and how much the two had to do with each other. [`ReportModel`](crate::ReportModel)
 //! predicts reports from it.
 
-use crate::{Hypothesis, Posterior};
+use crate::Hypothesis;
 use phase_event::ObservedEvent;
 use phase_model::{AgentId, Attitude, Body, Entity, Goal, MAX_ENTITIES, ObjectId, Relation};
 use serde::{Deserialize, Serialize};
@@ -55,6 +55,29 @@ impl Happening {
             (None, Relation::Neutral) => Self::Nothing,
         }
     }
+}
+
+/// The probability of each happening.
+pub(crate) type Happenings = [f64; HAPPENINGS];
+
+/// The probability of each happening, from hypotheses with their weights; weights need not sum to 1. Of an
+/// event in which no landmark was seen only goals elsewhere can be judged
+/// ([`Posterior::judged`](crate::Posterior::judged)).
+pub(crate) fn happenings(
+    observed: &ObservedEvent,
+    hypotheses: impl Iterator<Item = (Hypothesis, f64)>,
+) -> Happenings {
+    let [mut all, mut elsewhere] = [[0.0; HAPPENINGS]; 2];
+    for (hypothesis, weight) in hypotheses {
+        let happening = Happening::of(&hypothesis) as usize;
+        all[happening] += weight;
+        if hypothesis.goals.iter().all(|goal| goal.landmark().is_none()) {
+            elsewhere[happening] += weight;
+        }
+    }
+    let judged = if observed.missing().landmarks && elsewhere != [0.0; HAPPENINGS] { elsewhere } else { all };
+    let sum: f64 = judged.iter().sum();
+    if sum > 0.0 { judged.map(|weight| weight / sum) } else { judged }
 }
 
 /// The extent to which two agents had to do with each other: shares of the time watched, 0 to 1.
@@ -112,15 +135,13 @@ pub struct Impression {
 }
 
 impl Impression {
-    /// The mean over posteriors at evenly spaced times; `None` without any.
-    pub(crate) fn of(observed: &ObservedEvent, course: impl IntoIterator<Item = Posterior>) -> Option<Self> {
+    /// The mean over evenly spaced times of how likely each happening was; `None` without any.
+    pub(crate) fn of(observed: &ObservedEvent, course: impl IntoIterator<Item = Happenings>) -> Option<Self> {
         let mut happenings = [0.0; HAPPENINGS];
         let mut times = 0_usize;
-        for posterior in course {
+        for likely in course {
             times += 1;
-            for (hypothesis, weight) in &posterior.hypotheses {
-                happenings[Happening::of(hypothesis) as usize] += weight;
-            }
+            happenings.iter_mut().zip(likely).for_each(|(sum, likely)| *sum += likely);
         }
         (times > 0).then(|| Self {
             happenings: happenings.map(|sum| sum / times as f64),

@@ -56,9 +56,9 @@ pub fn infer(
     let gamma = settings.gamma;
     match &settings.algorithm {
         Algorithm::InversePlanning(planning) => {
-            let guide = cues.guide.as_ref().map(|guide| GuideCourse::new(guide, prepared.observed()));
+            let mut guide = cues.guide.as_ref().map(|guide| GuideCourse::new(guide, prepared.observed()));
             let mut planners = Planners::new(prepared, planning, settings);
-            Ok(planners.weigh(gamma, guide.as_ref(), &mut Budget::UNLIMITED.clone(), tick)?)
+            Ok(planners.weigh(gamma, guide.as_mut(), &mut Budget::UNLIMITED.clone(), tick)?)
         }
         Algorithm::Chains(chains) => Ok(run_chains(prepared, cues.strengths, seed, gamma, chains, tick)?),
     }

@@ -54,7 +54,7 @@ struct Asked {
 /// The evidence on an intent that an answer uses.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(crate) struct IntentLog {
-    intent: Intent,
+    pub(crate) intent: Intent,
     /// ln P(motion | intent) (nat).
     pub(crate) log: f64,
     /// Its standard error (nat), from what the decisions that were not looked at may add; 0 if all were.

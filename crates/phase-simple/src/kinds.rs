@@ -3,20 +3,20 @@
 use crate::{
     AlternativeAgents, Budget, Guidance, Guide, ImaginedAgents, InferenceSettings, Intent,
     InversePlanningSettings, Posterior, Proposal, UniformStrength,
-    answer::{self, Inference, KindEvidence, KnowledgeOfGoal, average, log_evidence, mixture},
+    answer::{self, Inference, KindEvidence, KnowledgeOfGoal, average, log_evidence, mixture, weighted},
     generative::PreparedEvent,
     guide::Guess,
-    impression::Impression,
+    impression::{Impression, happenings},
     intent::WeightedIntents,
     intent_network::IntentReader,
     inverse_planning::{IntentLog, InversePlanner},
-    settling::ShareInKinds,
+    settling::{Settling, ShareInKinds},
 };
 use core::ops::ControlFlow;
 use phase_event::ObservedEvent;
 use phase_model::{AGENT_COUNT, AgentId, Body, MAX_ENTITIES, Strength};
 use phase_pomcp::PomcpError;
-use std::sync::Arc;
+use std::{collections::BTreeMap, sync::Arc};
 
 /// The guide's guesses after every row of an event.
 #[derive(Clone, Debug)]
@@ -25,13 +25,17 @@ pub(crate) struct GuideCourse {
     reader: IntentReader,
     /// ln Q of every intent of each agent after each row.
     intents: Vec<[WeightedIntents; AGENT_COUNT]>,
+    /// The guess after each row, given what it depends on beside the row.
+    guesses: BTreeMap<usize, Guess>,
+    given: Option<(usize, [Strength; AGENT_COUNT])>,
 }
 
 impl GuideCourse {
     /// Watches all rows that have been observed.
     pub(crate) fn new(guide: &Guide, observed: &ObservedEvent) -> Self {
         let reader = guide.network.watch(observed);
-        let mut course = Self { guidance: guide.guidance, reader, intents: Vec::new() };
+        let (guidance, guesses) = (guide.guidance, BTreeMap::new());
+        let mut course = Self { guidance, reader, intents: Vec::new(), guesses, given: None };
         observed.rows().iter().for_each(|row| course.push(row));
         course
     }
@@ -41,11 +45,19 @@ impl GuideCourse {
         self.intents.push(self.reader.intents());
     }
 
-    /// The guess after a row of an event with so many objects, whose agents have these strengths.
-    fn guess(&self, row: usize, objects: usize, strengths: [Strength; AGENT_COUNT]) -> Guess {
-        let last = self.intents.len().saturating_sub(1);
-        let intents = self.intents.get(row.min(last)).cloned().unwrap_or_default();
-        Guess::new(&self.guidance, intents, objects, strengths)
+    /// Guesses from now on for an event with so many objects, whose agents have these strengths.
+    fn given(&mut self, objects: usize, strengths: [Strength; AGENT_COUNT]) {
+        if self.given.replace((objects, strengths)) != Some((objects, strengths)) {
+            self.guesses.clear();
+        }
+    }
+
+    /// The guess after a row, or after the last one that was watched.
+    fn guess(&mut self, row: usize) -> Option<&Guess> {
+        let row = row.min(self.intents.len().checked_sub(1)?);
+        let (objects, strengths) = self.given?;
+        let guess = || Guess::new(&self.guidance, self.intents[row].clone(), objects, strengths);
+        Some(self.guesses.entry(row).or_insert_with(guess))
     }
 }
 
@@ -73,6 +85,10 @@ impl Findings {
         KindEvidence { joint, log_evidence }
     }
 
+    fn intents(&self) -> [Vec<Intent>; AGENT_COUNT] {
+        self.own.each_ref().map(|logs| logs.iter().map(|it| it.intent).collect())
+    }
+
     fn shares(&self, planner: &InversePlanner, guess: Option<&Guess>) -> [Vec<ShareInKinds>; AGENT_COUNT] {
         let of = |logs: &[Vec<IntentLog>; AGENT_COUNT]| planner.shares(logs, guess);
         let own = of(&self.own);
@@ -80,16 +96,6 @@ impl Findings {
         let both = |agent: AgentId| own[agent].iter().zip(&compared[agent]);
         AgentId::ALL
             .map(|agent| both(agent).map(|(&own, &compared)| ShareInKinds { own, compared }).collect())
-    }
-
-    /// The findings if the log likelihood of an intent were so many standard errors greater.
-    fn moved(&self, agent: AgentId, place: usize, errors: f64) -> Self {
-        let mut moved = self.clone();
-        for logs in core::iter::once(&mut moved.own).chain(&mut moved.compared) {
-            let it = &mut logs[agent][place];
-            it.log += errors * it.error;
-        }
-        moved
     }
 }
 
@@ -163,29 +169,23 @@ impl Planners {
         let decisions = self.planners[0].decisions();
         let findings: Vec<Findings> =
             self.planners.iter().map(|planner| self.findings(planner, decisions)).collect();
-        let kinds = |findings: &[Findings]| -> Vec<KindEvidence> {
-            let both = self.planners.iter().zip(findings);
-            both.map(|(planner, findings)| findings.evidence(planner, guess)).collect()
-        };
-        let present = kinds(&findings);
-        let (posterior, probabilities) = mixture(&present);
+        let both = || self.planners.iter().zip(&findings);
+        let evidence: Vec<KindEvidence> =
+            both().map(|(planner, findings)| findings.evidence(planner, guess)).collect();
+        let simulated: Vec<_> = findings.iter().map(Findings::intents).collect();
+        let settling = Settling::new(&evidence, &simulated);
         let mut unsettled = Vec::new();
-        for (kind, of_kind) in findings.iter().enumerate() {
-            let shares = of_kind.shares(&self.planners[kind], guess);
+        for (kind, (planner, of_kind)) in both().enumerate() {
+            let shares = of_kind.shares(planner, guess);
             for agent in AgentId::ALL {
                 for (place, found) in of_kind.own[agent].iter().enumerate() {
                     let changes = |sign: f64| {
-                        // Most intents cannot change much, which is quickly known.
                         let compared = of_kind.compared.as_ref().unwrap_or(&of_kind.own);
                         let errors = [found.error, compared[agent][place].error].map(|it| sign * it);
-                        let bound = shares[agent][place].greatest_change(errors, probabilities[kind]);
-                        if bound < tolerated {
-                            return false;
-                        }
-                        let mut others = present.clone();
-                        others[kind] =
-                            of_kind.moved(agent, place, sign).evidence(&self.planners[kind], guess);
-                        posterior.total_variation(&mixture(&others).0) > tolerated
+                        let share = shares[agent][place];
+                        // Most intents cannot change much, which is quickly known.
+                        share.greatest_change(errors, settling.probability(kind)) >= tolerated
+                            && settling.change(kind, agent, found.intent, share, errors) > tolerated
                     };
                     if found.error > 0.0 && (changes(1.0) || changes(-1.0)) {
                         unsettled.push((kind, agent, place));
@@ -201,7 +201,7 @@ impl Planners {
     pub(crate) fn weigh(
         &mut self,
         gamma: f64,
-        guide: Option<&GuideCourse>,
+        mut guide: Option<&mut GuideCourse>,
         budget: &mut Budget,
         tick: &mut dyn FnMut() -> ControlFlow<()>,
     ) -> Result<Option<Inference>, PomcpError> {
@@ -209,11 +209,14 @@ impl Planners {
         let observed = Arc::clone(prepared.shared_observed());
         let objects = observed.object_sizes().len();
         let strengths = prepared.motion().strengths();
-        let guess = |row| guide.map(|guide| guide.guess(row, objects, strengths));
-        let last = guess(observed.steps());
+        if let Some(guide) = guide.as_deref_mut() {
+            guide.given(objects, strengths);
+        }
+        let last = guide.as_deref_mut().and_then(|guide| guide.guess(observed.steps())).cloned();
         if prepared.motion().is_foreign() || observed.missing().forms {
             let posterior = foreign(&observed, gamma, last.as_ref());
-            let impression = Impression::of(&observed, [posterior.clone()]);
+            let likely = happenings(&observed, posterior.hypotheses.iter().copied());
+            let impression = Impression::of(&observed, [likely]);
             return Ok(Some(answer::foreign(self.agents[0], posterior, impression)));
         }
         // The goal that each agent attributes to the other if it is not social.
@@ -264,8 +267,10 @@ impl Planners {
         }
         let first = &self.planners[0];
         let course = (1..=first.decisions()).map(|decisions| {
-            let guess = guess(first.row_after(decisions));
-            mixture(&self.evidence(decisions, guess.as_ref())).0.judged(&observed)
+            let row = first.row_after(decisions);
+            let guess = guide.as_deref_mut().and_then(|guide| guide.guess(row));
+            let evidence = self.evidence(decisions, guess);
+            happenings(&observed, weighted(&evidence).map(|(hypothesis, log)| (hypothesis, libm::exp(log))))
         });
         let impression = Impression::of(&observed, course);
         let decisions = first.decisions();

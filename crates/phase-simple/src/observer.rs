@@ -107,7 +107,7 @@ impl Observer {
         // Without a guide there is nothing to say of what is not simulated.
         let mut budget = if self.guide.is_some() { self.budget } else { Budget::UNLIMITED };
         let tick = &mut || ControlFlow::Continue(());
-        let inference = self.planners.weigh(self.gamma, self.guide.as_ref(), &mut budget, tick)?;
+        let inference = self.planners.weigh(self.gamma, self.guide.as_mut(), &mut budget, tick)?;
         Ok(inference.unwrap_or_else(|| unreachable!("not cancelled")))
     }
 
@@ -145,7 +145,7 @@ impl Observer {
         &mut self,
         tick: &mut dyn FnMut() -> ControlFlow<()>,
     ) -> Result<Option<Inference>, PomcpError> {
-        self.planners.weigh(self.gamma, self.guide.as_ref(), &mut Budget::UNLIMITED.clone(), tick)
+        self.planners.weigh(self.gamma, self.guide.as_mut(), &mut Budget::UNLIMITED.clone(), tick)
     }
 
     /// The part of the event that has been observed so far.

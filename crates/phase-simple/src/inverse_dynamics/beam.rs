@@ -5,7 +5,7 @@ use super::{
     path::Path,
     reading::Reading,
     replay::Replay,
-    search::{Before, explanations},
+    search::{Before, Explanation, explanations},
 };
 use phase_event::{ObservedError, ObservedEvent};
 use phase_model::{Body, MAX_ENTITIES, State};
@@ -31,9 +31,20 @@ pub(super) struct Beam {
     paths: Vec<Path>,
     /// The numbers of those that are followed, cheapest first: at least one.
     followed: Vec<usize>,
-    /// The last step is followed without the row after it, so it is followed again when that row has come:
-    /// how many paths there were before, and which were followed. `None` before the first step.
-    before_last: Option<(usize, Vec<usize>)>,
+    /// The last step is followed without the row after it, so it is followed again when that row has come.
+    /// `None` before the first step.
+    before_last: Option<BeforeLast>,
+}
+
+/// The paths before the last step.
+#[derive(Clone, Debug)]
+struct BeforeLast {
+    /// How many there were.
+    paths: usize,
+    /// Which were followed.
+    followed: Vec<usize>,
+    /// What explains the step, for each of those. It does not depend on the row after it.
+    explanations: Vec<Vec<Explanation>>,
 }
 
 impl Beam {
@@ -70,10 +81,10 @@ impl Beam {
             return Ok(false);
         }
         let last = self.readings[0].0.reading.event.steps();
-        if let Some((paths, followed)) = self.before_last.take() {
+        if let Some(BeforeLast { paths, followed, explanations }) = self.before_last.take() {
             self.paths.truncate(paths);
             self.followed = followed;
-            self.advance(last - 1);
+            self.extend(last - 1, explanations);
         }
         self.advance_to_last(last);
         Ok(true)
@@ -82,24 +93,41 @@ impl Beam {
     /// Follows all paths to the last row, `t`, if that is not row 0.
     fn advance_to_last(&mut self, t: usize) {
         if t > 0 {
-            self.before_last = Some((self.paths.len(), self.followed.clone()));
-            self.advance(t);
+            let explanations = self.explanations(t);
+            let (paths, followed) = (self.paths.len(), self.followed.clone());
+            self.extend(t, explanations.clone());
+            self.before_last = Some(BeforeLast { paths, followed, explanations });
         }
     }
 
     /// Follows all paths by one step, to row `t`.
     fn advance(&mut self, t: usize) {
-        let mut longer = Vec::new();
-        for &number in &self.followed {
+        self.extend(t, self.explanations(t));
+    }
+
+    /// What explains the step to row `t`, for each path that is followed.
+    fn explanations(&self, t: usize) -> Vec<Vec<Explanation>> {
+        let of_path = |&number: &usize| {
             let path = &self.paths[number];
-            let (replay, between) = &self.readings[path.reading];
+            let (replay, _) = &self.readings[path.reading];
             let before = Before {
                 tracked: &path.tracked,
                 strengths: path.strengths,
                 actions: path.actions,
                 exact: path.cost <= EXACT_COST * (t + EXACT_STEPS) as f64,
             };
-            for explanation in explanations(replay, &before, replay.row(t)) {
+            explanations(replay, &before, replay.row(t))
+        };
+        self.followed.iter().map(of_path).collect()
+    }
+
+    /// Extends all paths by what explains the step to row `t`.
+    fn extend(&mut self, t: usize, explanations: Vec<Vec<Explanation>>) {
+        let mut longer = Vec::new();
+        for (&number, explanations) in self.followed.iter().zip(explanations) {
+            let path = &self.paths[number];
+            let (replay, between) = &self.readings[path.reading];
+            for explanation in explanations {
                 longer.extend(path.extended(number, replay, explanation, &between[t]));
             }
         }
