@@ -190,6 +190,9 @@ pub struct Layout {
 }
 
 impl Layout {
+    /// Number of layouts: every base layout as it is, and in each reflection.
+    pub const COUNT: usize = BASES.len() * (1 + Flip::ALL.len());
+
     /// A layout by its numbers.
     ///
     /// # Errors
@@ -226,6 +229,16 @@ impl Layout {
     #[must_use]
     pub const fn flip(self) -> Option<Flip> {
         self.flip
+    }
+
+    /// Its place among all layouts, below [`COUNT`](Self::COUNT), for tables.
+    #[must_use]
+    pub const fn index(self) -> usize {
+        let flip = match self.flip {
+            None => 0,
+            Some(flip) => 1 + flip as usize,
+        };
+        self.base as usize * (1 + Flip::ALL.len()) + flip
     }
 
     /// The inner walls, by slot (u).

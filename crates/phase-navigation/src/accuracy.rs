@@ -26,5 +26,5 @@ pub(crate) const LEAST_BUCKET: f32 = 0.05;
 pub(crate) const LAST_BUCKET: usize = 1 << 16;
 /// Number of fields that a navigator keeps.
 pub(crate) const FIELDS_KEPT: usize = 64;
-/// Number of fields of assemblies that a navigator keeps; each takes 150 kB.
-pub(crate) const ASSEMBLY_FIELDS_KEPT: usize = 8;
+/// Number of fields of assemblies that are kept; each takes 150 kB.
+pub(crate) const ASSEMBLY_FIELDS_KEPT: usize = 128;

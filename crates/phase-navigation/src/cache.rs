@@ -2,7 +2,7 @@
 
 use std::{
     collections::{BTreeMap, VecDeque},
-    sync::Arc,
+    sync::{Arc, Mutex, PoisonError},
 };
 
 /// The bits of a result's arguments.
@@ -23,17 +23,33 @@ impl<T> Cache<T> {
 
     /// The result for a key, computed if it is not there.
     pub(crate) fn get(&mut self, key: Key, compute: impl FnOnce() -> T) -> Arc<T> {
-        if let Some(entry) = self.entries.get(&key) {
-            return Arc::clone(entry);
+        self.find(&key).unwrap_or_else(|| self.keep(key, compute()))
+    }
+
+    fn find(&self, key: &Key) -> Option<Arc<T>> {
+        self.entries.get(key).map(Arc::clone)
+    }
+
+    fn keep(&mut self, key: Key, result: T) -> Arc<T> {
+        let entry = Arc::new(result);
+        if self.entries.insert(key.clone(), Arc::clone(&entry)).is_none() {
+            if self.oldest_first.len() == self.capacity
+                && let Some(oldest) = self.oldest_first.pop_front()
+            {
+                self.entries.remove(&oldest);
+            }
+            self.oldest_first.push_back(key);
         }
-        let entry = Arc::new(compute());
-        if self.oldest_first.len() == self.capacity
-            && let Some(oldest) = self.oldest_first.pop_front()
-        {
-            self.entries.remove(&oldest);
-        }
-        self.oldest_first.push_back(key.clone());
-        self.entries.insert(key, Arc::clone(&entry));
         entry
     }
+}
+
+/// The result for a key in a cache that threads share, computed if it is not there while nobody waits.
+pub(crate) fn get_shared<T>(cache: &Mutex<Cache<T>>, key: Key, compute: impl FnOnce() -> T) -> Arc<T> {
+    let locked = || cache.lock().unwrap_or_else(PoisonError::into_inner);
+    let known = locked().find(&key);
+    known.unwrap_or_else(|| {
+        let result = compute();
+        locked().keep(key, result)
+    })
 }

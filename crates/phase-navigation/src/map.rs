@@ -8,6 +8,7 @@ use phase_model::{
     Layout, RoomId, Segment, SlotId,
     layout::{DOOR_CLEARANCE, SLOT_LENGTH},
 };
+use std::sync::OnceLock;
 
 /// Rooms, inner walls and openings of a layout, and the ways from room to room.
 ///
@@ -25,13 +26,22 @@ use phase_model::{
 /// assert_eq!(rooms(2.6), None); // too wide for the door
 /// # Ok::<(), phase_model::LayoutError>(())
 /// ```
-#[derive(Clone, Debug)]
-pub struct Map {
+///
+/// A map is a reference to what is worked out once for each layout.
+#[derive(Clone, Copy, Debug)]
+pub struct Map(&'static Rooms);
+
+/// The rooms of a layout.
+#[derive(Debug)]
+struct Rooms {
     layout: Layout,
     walls: Vec<Segment>,
     gaps: Gaps,
     ways: Ways,
 }
+
+/// The rooms of every layout, by its index, once they are asked for.
+static ROOMS: [OnceLock<Rooms>; Layout::COUNT] = [const { OnceLock::new() }; Layout::COUNT];
 
 /// The part of a slot that a mover may pass.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -48,40 +58,40 @@ impl Map {
     /// The map of a layout.
     #[must_use]
     pub fn new(layout: Layout) -> Self {
-        let gaps = Gaps::of(layout);
-        Self { layout, walls: layout.walls(), gaps, ways: ways(layout) }
+        let rooms = || Rooms { layout, walls: layout.walls(), gaps: Gaps::of(layout), ways: ways(layout) };
+        Self(ROOMS[layout.index()].get_or_init(rooms))
     }
 
     /// The layout.
     #[must_use]
     pub const fn layout(&self) -> Layout {
-        self.layout
+        self.0.layout
     }
 
     /// The inner walls (u).
     #[must_use]
-    pub fn walls(&self) -> &[Segment] {
-        &self.walls
+    pub const fn walls(&self) -> &'static [Segment] {
+        self.0.walls.as_slice()
     }
 
     /// The openings of the layout itself, without any bodies in them.
     #[must_use]
-    pub const fn gaps(&self) -> &Gaps {
-        &self.gaps
+    pub const fn gaps(&self) -> &'static Gaps {
+        &self.0.gaps
     }
 
     /// The step from a room to one next to it; `None` where a full wall is in between, and for rooms that are
     /// not next to each other.
     #[must_use]
     pub fn crossing(&self, from: RoomId, to: RoomId) -> Option<Crossing> {
-        Crossing::out_of(self.layout, from).find(|step| step.to == to)
+        Crossing::out_of(self.0.layout, from).find(|step| step.to == to)
     }
 
     /// All ways from one room to another that visit no room twice, the shortest first; none from a room to
     /// itself.
     #[must_use]
-    pub fn ways(&self, from: RoomId, to: RoomId) -> &[Vec<Crossing>] {
-        &self.ways[from][to]
+    pub fn ways(&self, from: RoomId, to: RoomId) -> &'static [Vec<Crossing>] {
+        &self.0.ways[from][to]
     }
 
     /// The way from one room to another through the fewest openings, each at least this wide (u); empty from
@@ -91,7 +101,7 @@ impl Map {
         if from == to {
             return Some(&[]);
         }
-        let is_wide = |way: &&Vec<Crossing>| way.iter().all(|step| self.gaps.width(step.slot) >= width);
+        let is_wide = |way: &&Vec<Crossing>| way.iter().all(|step| self.0.gaps.width(step.slot) >= width);
         self.ways(from, to).iter().find(is_wide).map(Vec::as_slice)
     }
 
@@ -101,7 +111,7 @@ impl Map {
     pub fn regions_around(&self, room: RoomId) -> Vec<Vec<RoomId>> {
         let mut regions: Vec<Vec<RoomId>> = Vec::new();
         for other in RoomId::ALL.into_iter().filter(|&other| other != room) {
-            let is_beside = |it: &RoomId| Crossing::out_of(self.layout, other).any(|step| step.to == *it);
+            let is_beside = |it: &RoomId| Crossing::out_of(self.0.layout, other).any(|step| step.to == *it);
             let (joined, apart): (Vec<_>, Vec<_>) =
                 regions.into_iter().partition(|region: &Vec<RoomId>| region.iter().any(is_beside));
             regions = apart;
@@ -114,12 +124,12 @@ impl Map {
     /// Whether a mover is narrower than the opening of a slot.
     #[must_use]
     pub fn fits(&self, slot: SlotId, mover: Mover) -> bool {
-        self.gaps.0[slot].is_some() && self.gaps.width(slot) >= 2.0 * mover.half_width
+        self.0.gaps.0[slot].is_some() && self.0.gaps.width(slot) >= 2.0 * mover.half_width
     }
 
     /// Whether a wall ends or passes at the arena's centre.
     fn centre_is_walled(&self) -> bool {
-        self.gaps.0.iter().any(|opening| opening.is_none_or(|(low, _)| low > 0.0))
+        self.0.gaps.0.iter().any(|opening| opening.is_none_or(|(low, _)| low > 0.0))
     }
 
     /// The part of a slot that a mover's centre may cross.
@@ -128,7 +138,7 @@ impl Map {
     /// is no wall: at the centre of an arena without walls, and at the boundary of a slot without a wall of
     /// its own.
     pub(crate) fn passage(&self, slot: SlotId, mover: Mover) -> Passage {
-        let Some((low, high)) = self.gaps.0[slot] else { return Passage::Wall };
+        let Some((low, high)) = self.0.gaps.0[slot] else { return Passage::Wall };
         if !self.fits(slot, mover) {
             return Passage::Closed(0.5 * (low + high));
         }
@@ -140,7 +150,7 @@ impl Map {
 
     /// The ends of walls around which paths bend in one slot: the position along the slot (u) of each.
     pub(crate) fn corners(&self, slot: SlotId) -> impl Iterator<Item = f32> {
-        let (low, high) = self.gaps.0[slot].unwrap_or((SLOT_LENGTH, SLOT_LENGTH));
+        let (low, high) = self.0.gaps.0[slot].unwrap_or((SLOT_LENGTH, SLOT_LENGTH));
         let is_corner = |end: f32| end < SLOT_LENGTH && (end > 0.0 || self.centre_is_walled());
         [low, high].into_iter().filter(move |&end| is_corner(end))
     }

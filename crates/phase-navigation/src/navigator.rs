@@ -3,37 +3,36 @@
 use crate::{
     Assembly, AssemblyField, AssemblyParameters, Disc, Field, Map, Mover, NavigationParameters, Target,
     accuracy::{ASSEMBLY_FIELDS_KEPT, FIELDS_KEPT},
-    cache::{Cache, Key},
+    cache::{Cache, Key, get_shared},
 };
 use phase_model::Layout;
-use std::sync::Arc;
+use std::sync::{Arc, Mutex};
 
-/// Computes fields of one layout and keeps the latest.
+/// The latest fields of assemblies. They take milliseconds, and the minds that an inference imagines all need
+/// the same ones at once.
+static ASSEMBLY_FIELDS: Mutex<Cache<AssemblyField>> = Mutex::new(Cache::new(ASSEMBLY_FIELDS_KEPT));
+
+/// Computes fields of one layout and keeps the latest; those of assemblies all navigators of the program
+/// keep together.
 ///
 /// A field depends on the arguments alone, so the cache changes the time of an answer and never the answer.
 #[derive(Clone, Debug)]
 pub struct Navigator {
-    map: Arc<Map>,
+    map: Map,
     parameters: NavigationParameters,
     fields: Cache<Field>,
-    assembly_fields: Cache<AssemblyField>,
 }
 
 impl Navigator {
     /// A navigator with an empty cache.
     #[must_use]
     pub fn new(layout: Layout, parameters: NavigationParameters) -> Self {
-        Self {
-            map: Arc::new(Map::new(layout)),
-            parameters,
-            fields: Cache::new(FIELDS_KEPT),
-            assembly_fields: Cache::new(ASSEMBLY_FIELDS_KEPT),
-        }
+        Self { map: Map::new(layout), parameters, fields: Cache::new(FIELDS_KEPT) }
     }
 
     /// The map.
     #[must_use]
-    pub fn map(&self) -> &Map {
+    pub const fn map(&self) -> &Map {
         &self.map
     }
 
@@ -48,16 +47,17 @@ impl Navigator {
 
     /// The field of a target for an assembly; see [`AssemblyField::new`].
     pub fn assembly_field(
-        &mut self,
+        &self,
         target: Target,
         reach: f32,
         assembly: &Assembly,
         parameters: AssemblyParameters,
     ) -> Arc<AssemblyField> {
-        let numbers = core::iter::once(reach.to_bits()).chain(parameters.bits());
-        let key = key(target, numbers.chain(assembly.bits()));
         let map = &self.map;
-        self.assembly_fields.get(key, || AssemblyField::new(map, target, reach, assembly, parameters))
+        let numbers = [map.layout().index() as u32, reach.to_bits()].into_iter().chain(parameters.bits());
+        let key = key(target, numbers.chain(assembly.bits()));
+        let field = || AssemblyField::new(map, target, reach, assembly, parameters);
+        get_shared(&ASSEMBLY_FIELDS, key, field)
     }
 }
 

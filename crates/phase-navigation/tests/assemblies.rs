@@ -135,18 +135,23 @@ fn a_load_inside_its_room_has_arrived() {
 
 #[test]
 fn the_cache_does_not_change_answers() {
-    let layout = Layout::new(4, None).expect("layout 4");
-    let mut navigator = Navigator::new(
-        layout,
-        NavigationParameters { impassable: 10.0, obstruction: 4.0, ..NavigationParameters::DEFAULT },
-    );
+    let bases = [4, 16];
+    let navigators = bases.map(|base| {
+        Navigator::new(Layout::new(base, None).expect("a base number"), NavigationParameters::DEFAULT)
+    });
     let from = Vec2::new(8.75, 16.0);
     for round in 0..2 {
         for (side, landmark) in Side::ALL.into_iter().flat_map(|side| arena::LANDMARKS.map(|to| (side, to))) {
             let assembly = held(0.8, 0.8, side);
-            let cached = navigator.assembly_field(Target::Point(landmark), REACH, &assembly, COSTS);
-            let fresh = field(4, landmark, &assembly);
-            assert_eq!(cached.distance(from, 1.0).to_bits(), fresh.distance(from, 1.0).to_bits(), "{round}");
+            for (base, navigator) in bases.into_iter().zip(&navigators) {
+                let cached = navigator.assembly_field(Target::Point(landmark), REACH, &assembly, COSTS);
+                let fresh = field(base, landmark, &assembly);
+                assert_eq!(
+                    cached.distance(from, 1.0).to_bits(),
+                    fresh.distance(from, 1.0).to_bits(),
+                    "{round}"
+                );
+            }
         }
     }
 }

@@ -190,9 +190,9 @@ fn is_placed(variant: Variant, scene: &Scene) -> bool {
 /// that comes to the object first has a short way there, and is no stronger than the other, so that both get
 /// it their way. Always true for other variants.
 pub(crate) fn meet_soon(variant: Variant, scene: &Scene) -> bool {
-    let physics = scene.physics();
     let map = Map::new(scene.layout);
     let way = |role: usize, to: Vec2| {
+        let physics = scene.physics();
         let from = scene.agents[role].start.position;
         map.route_cost(from, to, physics.agents[role].width(), map.gaps(), IMPASSABLE_COST)
     };
