@@ -129,10 +129,10 @@ fn futures<D: Dynamics>(
 ) -> [f32; 2 * FUTURES] {
     let mut numbers = [0.0; 2 * FUTURES];
     let mut places = numbers.chunks_exact_mut(2);
+    let mut first = *search_state;
+    let first_reward = model.imagine(&mut first, action).reward as f32;
     let mut follow = |until: &[usize], next: &dyn Fn(&SearchState) -> Action| {
-        let mut after = *search_state;
-        let mut reward = model.imagine(&mut after, action).reward as f32;
-        let mut steps = 1;
+        let (mut after, mut reward, mut steps) = (first, first_reward, 1);
         for &until in until {
             while steps < until {
                 let next = next(&after);
