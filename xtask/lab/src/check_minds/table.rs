@@ -22,9 +22,10 @@ const MINDS: [Column; 9] = [
 ];
 
 /// The open loop beside the recordings.
-const OPEN_LOOP: [Column; 11] = [
+const OPEN_LOOP: [Column; 12] = [
     ("goals", |it| it.open_loop.goals.to_string()),
     ("as recorded", |it| number(it.open_loop.outcomes_as_recorded, 2)),
+    ("each other", |it| number(it.open_loop.outcomes_as_each_other, 2)),
     ("any time", |it| number(it.open_loop.outcomes_at_any_time, 2)),
     ("ratio", |it| number(it.open_loop.path_ratio, 2)),
     ("path", |it| beside(it.open_loop.path, it.open_loop.path_recorded, 1)),

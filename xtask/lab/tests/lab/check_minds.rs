@@ -85,6 +85,7 @@ fn recorded_motion_is_measured_as_by_hand() {
     }
     assert_eq!(still["path_ratio"], Value::Null, "nothing is to be divided by a path of length 0");
     assert_eq!(still["goals"], 2);
+    assert_eq!(still["outcomes_as_each_other"], Value::Null, "of one seed there are no pairs");
     for name in ["choice_probability", "explained_share", "outcomes_as_recorded", "still_share"] {
         assert!((0.0..=1.0).contains(&number(&report[name])), "{name}: {}", report[name]);
     }
@@ -101,9 +102,9 @@ fn whoever_is_where_it_wants_to_be_is_expected_to_stay() {
     content["trajectory"]["agents"][1] = json!(vec![json!([23.5, 19.5, 0.0, 0.0, 0.5]); 5]);
     content["trajectory"]["objects"][0] = json!(vec![json!([15.0, 15.0, 0.0, 0.0, 0.0]); 5]);
     let folder = folder(&[content]);
-    succeed(folder.path(), &check(&["--json", "out.json"]));
+    succeed(folder.path(), &check(&["--json", "out.json", "--open-loop-seeds", "3"]));
     let report = report(&folder.path().join("out.json"));
-    for name in ["choice_probability", "outcomes_as_recorded", "still_share"] {
+    for name in ["choice_probability", "outcomes_as_recorded", "outcomes_as_each_other", "still_share"] {
         assert!(number(&report[name]) > 0.9, "{name}: {}", report[name]);
     }
     assert!(number(&report["stray_per_step"]) < 0.05, "{}", report["stray_per_step"]);

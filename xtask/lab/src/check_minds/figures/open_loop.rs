@@ -12,6 +12,9 @@ pub(in crate::check_minds) struct OpenLoopFigures {
     pub(in crate::check_minds) goals: usize,
     /// Share of them whose outcome is as recorded.
     pub(in crate::check_minds) outcomes_as_recorded: Option<f64>,
+    /// Share of the pairs of seeds in which the outcome of a goal is the same: as much as can be expected of
+    /// a recording that the same minds made with other random numbers. `None` with one seed.
+    pub(in crate::check_minds) outcomes_as_each_other: Option<f64>,
     /// Share of them that hold at any time as recorded.
     pub(in crate::check_minds) outcomes_at_any_time: Option<f64>,
     /// Median ratio of the length of all paths to the recorded one.
@@ -67,6 +70,7 @@ impl OpenLoopFigures {
         Self {
             goals: agreements.len(),
             outcomes_as_recorded: share(0),
+            outcomes_as_each_other: mean(&events.iter().flat_map(|it| as_each_other(it)).collect::<Vec<_>>()),
             outcomes_at_any_time: share(1),
             path_ratio: median(ratios),
             path: median(simulated().map(Motion::path)),
@@ -97,6 +101,19 @@ fn agreements(event: &MeasuredEvent) -> impl Iterator<Item = [bool; 2]> {
         reached.filter_map(|(ours, theirs)| {
             let (ours, theirs) = ours.zip(*theirs)?;
             Some([ours.outcome == theirs.outcome, ours.at_any_time == theirs.at_any_time])
+        })
+    })
+}
+
+/// For each own positive goal and pair of seeds 1 if its outcome is the same, else 0.
+fn as_each_other(event: &MeasuredEvent) -> impl Iterator<Item = f64> {
+    let runs = event.simulated.iter().enumerate();
+    let pairs = runs.flat_map(|(k, one)| event.simulated[..k].iter().map(move |other| (one, other)));
+    pairs.flat_map(|(one, other)| {
+        let both = one.motion.reached.iter().zip(&other.motion.reached);
+        both.filter_map(|(one, other)| {
+            let (one, other) = one.zip(*other)?;
+            Some(f64::from(u8::from(one.outcome == other.outcome)))
         })
     })
 }
