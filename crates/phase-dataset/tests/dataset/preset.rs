@@ -250,6 +250,18 @@ fn what_is_no_preset_is_refused() {
         (&DEMO.replace("\"demo\"", "\".demo\""), "name"),
         (&DEMO.replace("\"demo\"", "\"nul.\""), "name"),
         (&PHASE_500.replace("\"blocks\": 64", "\"blocks\": 0"), "blocks` must be 1"),
+        (
+            &PHASE_500.replace("\"meet_soon\": true", "\"meet_soon\": 3"),
+            "field `blocks.meet_soon` must be true or false, not 3",
+        ),
+        (
+            &PHASE_500.replace("\"min_steps\": 44", "\"min_steps\": \"a\""),
+            "field `selection.min_steps` must be a whole number from 0 on, not \"a\"",
+        ),
+        (
+            &PHASE_500.replace("\"places\": \"objects\"", "\"places\": \"x\""),
+            "in `blocks.groups[3].replace`: ",
+        ),
         (&PHASE_500.replace("[\"carry\"]", "[]"), "`columns`"),
         (&PHASE_500.replace("\"blocks\": {", "\"groups\": [{}], \"blocks\": {"), "variant"),
         (&PHASE_500.replace("\"unseen\", \"blocks\": 5", "\"hidden\", \"blocks\": 5"), "hidden"),

@@ -5,8 +5,10 @@ mod error;
 mod field;
 mod parse;
 mod similar;
+mod typed;
 
 pub use error::{FieldError, JsonError};
 pub use field::{Field, finite, shown};
 pub use parse::{check_format, parse, parse_as, parse_line, parse_text};
 pub use similar::edit_distance;
+pub use typed::read_as;

@@ -1,6 +1,6 @@
 //! From text to a JSON document.
 
-use super::{JsonError, shown};
+use super::{JsonError, read_as, shown};
 use crate::foreign;
 use core::fmt;
 use serde::{
@@ -70,7 +70,7 @@ pub fn parse_line(line: &[u8], number: usize) -> Result<Value, JsonError> {
 /// for those of which it keeps some as they are.
 ///
 /// # Errors
-/// As [`serde_json::from_str`], and for an object with two members of one name.
+/// As [`serde_json::from_str`] and [`read_as`], and for an object with two members of one name.
 pub fn parse_as<T: DeserializeOwned>(text: &str) -> Result<T, serde_json::Error> {
     let Unambiguous(value) = serde_json::from_str(text).map_err(|error| {
         if error.classify() == Category::Data {
@@ -82,7 +82,7 @@ pub fn parse_as<T: DeserializeOwned>(text: &str) -> Result<T, serde_json::Error>
             error
         }
     })?;
-    serde_json::from_value(value)
+    read_as(value)
 }
 
 /// JSON without objects that have two members of one name. Its only error of its own is the name of such a
