@@ -36,7 +36,8 @@ struct LastEstimate {
 
 /// The belief after a step from one state to another.
 fn after((belief, random): &Estimate, action: Action, [before, state]: &[State; 2]) -> Estimate {
-    let (mut belief, mut random) = (belief.clone(), random.clone());
+    let mut belief = belief.clone();
+    let mut random = random.clone();
     let observation: Observation = belief.observe(state);
     belief.update(action, &observation, &between(before, state), &mut random);
     (belief, random)

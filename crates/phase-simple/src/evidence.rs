@@ -10,7 +10,7 @@ use crate::{
 use phase_model::{AGENT_COUNT, AgentId, Attitude, Goal, Level, Strength};
 use phase_pomcp::PomcpError;
 
-/// Decisions of simulated minds that an inference may spend. One takes some milliseconds.
+/// Decisions of simulated minds that an inference may spend. One takes about a millisecond.
 ///
 /// ```
 /// use phase_simple::Budget;

@@ -34,7 +34,8 @@ impl GuideCourse {
     /// Watches all rows that have been observed.
     pub(crate) fn new(guide: &Guide, observed: &ObservedEvent) -> Self {
         let reader = guide.network.watch(observed);
-        let (guidance, guesses) = (guide.guidance, BTreeMap::new());
+        let guidance = guide.guidance;
+        let guesses = BTreeMap::new();
         let mut course = Self { guidance, reader, intents: Vec::new(), guesses, given: None };
         observed.rows().iter().for_each(|row| course.push(row));
         course

@@ -65,7 +65,7 @@ pub struct Observer {
 }
 
 /// Decisions that an observer spends on a row by default: less than the 250 ms that a step lasts in a video.
-/// A decision takes 2 to 6 ms (docs/explanation/simple.md).
+/// A decision takes about a millisecond (docs/results/performance.md).
 const BUDGET: usize = 20;
 
 impl Observer {

@@ -1,4 +1,4 @@
-//! What a closer look at an intent can change.
+//! The change that a closer look at an intent can make.
 
 use crate::{
     Hypothesis, Intent,
@@ -113,7 +113,8 @@ impl Settling {
         let weighted = before * ratio(share.compared, compared);
         let then = weighted / (weighted + 1.0 - before);
         let others = if before < 1.0 { (1.0 - then) / (1.0 - before) - 1.0 } else { 0.0 };
-        let (factor, rest) = (libm::exp(own) / ratio(share.own, own), 1.0 / ratio(share.own, own));
+        let rest = 1.0 / ratio(share.own, own);
+        let factor = libm::exp(own) / ratio(share.own, own);
         let mut change = 0.0;
         for (place, hypothesis) in self.hypotheses.iter().enumerate() {
             let factor = match of_kind.simulated[place] {
@@ -165,7 +166,8 @@ mod tests {
             changed in (0..2_usize, 0..2_u8, 0..10_usize),
             change in prop::array::uniform2(-3.0..3.0_f64),
         ) {
-            let guess = guessed.map(|logs| Guess::new(&Guidance::default(), weighted(1, &logs), 2, STRENGTHS));
+            let guess = |logs: &[f64]| Guess::new(&Guidance::default(), weighted(1, logs), 2, STRENGTHS);
+            let guess = guessed.as_deref().map(guess);
             // By kind, and by rate.
             let intents: Vec<[_; 2]> =
                 (0..2).map(|kind| [0, 1].map(|rate| weighted(4, &logs[40 * kind + 20 * rate..]))).collect();
@@ -177,8 +179,8 @@ mod tests {
                 KindEvidence { joint, log_evidence: log_evidence(&compared) }
             };
             let before: Vec<KindEvidence> = intents.iter().map(evidence).collect();
-            let simulated: Vec<_> =
-                intents.iter().map(|[own, _]| own.each_ref().map(|it| it.iter().map(|it| it.0).collect())).collect();
+            let named = |it: &WeightedIntents| it.iter().map(|it| it.0).collect();
+            let simulated: Vec<_> = intents.iter().map(|[own, _]| own.each_ref().map(named)).collect();
             let settling = Settling::new(&before, &simulated);
 
             let (kind, agent, place) = (changed.0, AgentId::ALL[usize::from(changed.1)], changed.2);

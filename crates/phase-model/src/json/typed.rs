@@ -39,7 +39,7 @@ fn sentence(field: Option<&str>, message: &str) -> String {
     }
 }
 
-/// What a type of Rust asks for.
+/// The rule behind a type of Rust.
 fn expected(rule: &str) -> &str {
     match rule {
         "u8" => "a whole number from 0 to 255",
@@ -57,7 +57,7 @@ fn expected(rule: &str) -> &str {
     }
 }
 
-/// What was found, without its type, which shows.
+/// The value that was found, without its type, which shows.
 fn shown(found: &str) -> &str {
     match found {
         "sequence" => return "an array",

@@ -39,11 +39,11 @@ pub(super) struct Beam {
 /// The paths before the last step.
 #[derive(Clone, Debug)]
 struct BeforeLast {
-    /// How many there were.
+    /// Their number.
     paths: usize,
-    /// Which were followed.
+    /// The numbers of those that were followed.
     followed: Vec<usize>,
-    /// What explains the step, for each of those. It does not depend on the row after it.
+    /// The explanations of the step, for each of those. They do not depend on the row after it.
     explanations: Vec<Vec<Explanation>>,
 }
 
@@ -94,7 +94,8 @@ impl Beam {
     fn advance_to_last(&mut self, t: usize) {
         if t > 0 {
             let explanations = self.explanations(t);
-            let (paths, followed) = (self.paths.len(), self.followed.clone());
+            let paths = self.paths.len();
+            let followed = self.followed.clone();
             self.extend(t, explanations.clone());
             self.before_last = Some(BeforeLast { paths, followed, explanations });
         }
@@ -105,7 +106,7 @@ impl Beam {
         self.extend(t, self.explanations(t));
     }
 
-    /// What explains the step to row `t`, for each path that is followed.
+    /// The explanations of the step to row `t`, for each path that is followed.
     fn explanations(&self, t: usize) -> Vec<Vec<Explanation>> {
         let of_path = |&number: &usize| {
             let path = &self.paths[number];
