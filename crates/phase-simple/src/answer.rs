@@ -117,18 +117,21 @@ pub(crate) fn log_evidence(joint: &[(Hypothesis, f64)]) -> f64 {
     log_sum_exp(joint.iter().map(|(_, log)| *log))
 }
 
-/// The probability of each kind of minds, with an even prior.
-pub(crate) fn probabilities(kinds: &[KindEvidence]) -> impl Iterator<Item = f64> {
+/// ln P(kind | motion) of each kind of minds, with an even prior.
+fn log_probabilities(kinds: &[KindEvidence]) -> Vec<f64> {
     let mut shares: Vec<f64> = kinds.iter().map(|kind| kind.log_evidence).collect();
     log_softmax(&mut shares);
-    shares.into_iter().map(libm::exp)
+    shares
+}
+
+/// P(kind | motion) of each kind of minds, with an even prior.
+pub(crate) fn probabilities(kinds: &[KindEvidence]) -> impl Iterator<Item = f64> {
+    log_probabilities(kinds).into_iter().map(libm::exp)
 }
 
 /// ln P(Y, kind | motion) of every hypothesis of every kind of minds, with an even prior over kinds.
 pub(crate) fn weighted(kinds: &[KindEvidence]) -> impl Iterator<Item = (Hypothesis, f64)> {
-    let mut shares: Vec<f64> = kinds.iter().map(|kind| kind.log_evidence).collect();
-    log_softmax(&mut shares);
-    kinds.iter().zip(shares).flat_map(|(kind, share)| {
+    kinds.iter().zip(log_probabilities(kinds)).flat_map(|(kind, share)| {
         let shift = share - log_evidence(&kind.joint);
         kind.joint.iter().map(move |&(hypothesis, log)| (hypothesis, log + shift))
     })
