@@ -28,15 +28,14 @@ pub fn read_as<T: DeserializeOwned>(document: Value) -> Result<T, serde_json::Er
 
 /// The message of the library about a field, if it knows which, in the words of other messages.
 fn sentence(field: Option<&str>, message: &str) -> String {
-    let wrong = ["invalid type: ", "invalid value: "].into_iter().find_map(|kind| message.strip_prefix(kind));
-    match (field, wrong.and_then(|wrong| wrong.rsplit_once(", expected "))) {
-        (Some(field), Some((found, rule))) => {
-            format!("field `{field}` must be {}, not {}", expected(rule), shown(found))
-        }
-        (None, Some((found, rule))) => format!("must be {}, not {}", expected(rule), shown(found)),
-        (Some(field), None) => format!("in `{field}`: {message}"),
-        (None, None) => message.into(),
-    }
+    let kinds = ["invalid type: ", "invalid value: ", "invalid length "];
+    let wrong = kinds.into_iter().find_map(|kind| message.strip_prefix(kind));
+    let Some((found, rule)) = wrong.and_then(|wrong| wrong.rsplit_once(", expected ")) else {
+        return field.map_or_else(|| message.into(), |field| format!("in `{field}`: {message}"));
+    };
+    let prefix = field.map(|field| format!("field `{field}` ")).unwrap_or_default();
+    let array = message.starts_with(kinds[2]).then(|| format!("an array of length {found}"));
+    format!("{prefix}must be {}, not {}", expected(rule), array.as_deref().unwrap_or_else(|| shown(found)))
 }
 
 /// The rule behind a type of Rust.
@@ -67,4 +66,42 @@ fn shown(found: &str) -> &str {
     let quoted = ["integer ", "floating point ", "boolean "].into_iter();
     let number = quoted.filter_map(|kind| found.strip_prefix(kind)).next();
     number.map_or_else(|| found.strip_prefix("string ").unwrap_or(found), |it| it.trim_matches('`'))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::read_as;
+    use serde::Deserialize;
+    use serde_json::json;
+
+    #[derive(Deserialize, Debug)]
+    #[serde(deny_unknown_fields)]
+    #[expect(dead_code, reason = "only what cannot be read is looked at")]
+    struct Thing {
+        parts: Vec<[f32; 2]>,
+        name: Option<String>,
+        whole: Option<bool>,
+    }
+
+    #[test]
+    fn errors_name_the_field_and_its_rule() {
+        let cases = [
+            (json!([]), "must be an object, not an array of length 0"),
+            (json!("x"), "must be an object, not \"x\""),
+            (json!({}), "missing field `parts`"),
+            (json!({"parts": 3}), "field `parts` must be an array, not 3"),
+            (
+                json!({"parts": [[0.5, 1], [2]]}),
+                "field `parts[1]` must be an array of length 2, not an array of length 1",
+            ),
+            (json!({"parts": [["a", 1]]}), "field `parts[0][0]` must be a number, not \"a\""),
+            (json!({"parts": [], "name": {}}), "field `name` must be a text, not an object"),
+            (json!({"parts": [], "whole": 0.5}), "field `whole` must be true or false, not 0.5"),
+            (json!({"parts": [], "size": 1}), "in `size`: unknown field `size`, expected one of"),
+        ];
+        for (document, expected) in cases {
+            let error = read_as::<Thing>(document).expect_err(expected).to_string();
+            assert!(error.starts_with(expected), "{error} for {expected}");
+        }
+    }
 }
