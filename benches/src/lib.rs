@@ -7,7 +7,7 @@
 //!   world under random held actions; and, if the environment variable `PHASE_EVENTS` names a
 //!   `phase-events/1` file, also from the rows of its recordings, each initial state stepped ten times.
 //! - `inverse_dynamics`: inverse dynamics of six simulated events and of the recordings in `PHASE_EVENTS`;
-//!   goals and futures of some of these recordings.
+//!   goals and futures of some of these recordings, and the rows of an observer that watches them.
 //! - `minds`: field of view, observing, belief updates, planning, deciding; deciding and believing with more
 //!   or fewer simulations, particles and rollout steps; one event of 100 steps of each kind (the sampler's
 //!   first scene of seed 1); and a reference workload.

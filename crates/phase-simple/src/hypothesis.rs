@@ -79,6 +79,11 @@ impl Hypothesis {
         AgentId::ALL.into_iter().find(|&agent| self.attitudes[agent] != Attitude::Neutral)
     }
 
+    /// Whether neither goal is at a landmark.
+    pub(crate) fn is_elsewhere(&self) -> bool {
+        self.goals.iter().all(|goal| goal.landmark().is_none())
+    }
+
     /// ln P(g_i)P(g_j)P(α_ij, α_ji)P(f_i)P(f_j) of Equation 2, all uniform: over the goals of each agent,
     /// over no agent, one helping or one hindering, either of the two, and over four strengths each. A social
     /// agent's own goal, which makes no difference, is summed over.

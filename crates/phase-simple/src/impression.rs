@@ -71,7 +71,7 @@ pub(crate) fn happenings(
     for (hypothesis, weight) in hypotheses {
         let happening = Happening::of(&hypothesis) as usize;
         all[happening] += weight;
-        if hypothesis.goals.iter().all(|goal| goal.landmark().is_none()) {
+        if hypothesis.is_elsewhere() {
             elsewhere[happening] += weight;
         }
     }

@@ -51,7 +51,7 @@ impl Posterior {
     /// The posterior given that goals can be judged: without those at landmarks if none was seen.
     #[must_use]
     pub fn judged(self, observed: &ObservedEvent) -> Self {
-        let elsewhere = |it: &(Hypothesis, f64)| it.0.goals.iter().all(|goal| goal.landmark().is_none());
+        let elsewhere = |it: &(Hypothesis, f64)| it.0.is_elsewhere();
         if !observed.missing().landmarks || !self.hypotheses.iter().any(elsewhere) {
             return self;
         }

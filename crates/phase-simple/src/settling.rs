@@ -37,13 +37,25 @@ impl ShareInKinds {
     ///
     /// A factor f for hypotheses with a share s makes the sum over all of them r = 1 + s (f - 1) times as
     /// great, and moves s (1 - s) |f - 1| / r of their distribution.
-    pub(crate) fn greatest_change(self, [own, compared]: [f64; 2], probability: f64) -> f64 {
-        let ratio = |share: f64, log: f64| 1.0 + share * libm::expm1(log);
-        let within = self.own * (1.0 - self.own) * libm::expm1(own).abs() / ratio(self.own, own);
-        let weighted = probability * ratio(self.compared, compared);
-        let then = weighted / (weighted + 1.0 - probability);
+    pub(crate) fn greatest_change(self, logs: [f64; 2], probability: f64) -> f64 {
+        let Moved { ratio, probability: then } = self.moved(logs, probability);
+        let within = self.own * (1.0 - self.own) * libm::expm1(logs[0]).abs() / ratio;
         probability.max(then) * within + (then - probability).abs()
     }
+
+    fn moved(self, [own, compared]: [f64; 2], probability: f64) -> Moved {
+        let ratio = |share: f64, log: f64| 1.0 + share * libm::expm1(log);
+        let weighted = probability * ratio(self.compared, compared);
+        Moved { ratio: ratio(self.own, own), probability: weighted / (weighted + 1.0 - probability) }
+    }
+}
+
+/// The state of a kind of minds after the log likelihood of an intent has changed.
+struct Moved {
+    /// The sum over its hypotheses, by its former value.
+    ratio: f64,
+    /// The kind's probability.
+    probability: f64,
 }
 
 /// The posterior of some kinds of minds, as far as closer looks can change it.
@@ -105,16 +117,14 @@ impl Settling {
         agent: AgentId,
         intent: Intent,
         share: ShareInKinds,
-        [own, compared]: [f64; 2],
+        logs: [f64; 2],
     ) -> f64 {
-        let ratio = |share: f64, log: f64| 1.0 + share * libm::expm1(log);
         let of_kind = &self.kinds[kind];
         let before = of_kind.probability;
-        let weighted = before * ratio(share.compared, compared);
-        let then = weighted / (weighted + 1.0 - before);
+        let Moved { ratio, probability: then } = share.moved(logs, before);
         let others = if before < 1.0 { (1.0 - then) / (1.0 - before) - 1.0 } else { 0.0 };
-        let rest = 1.0 / ratio(share.own, own);
-        let factor = libm::exp(own) / ratio(share.own, own);
+        let rest = 1.0 / ratio;
+        let factor = libm::exp(logs[0]) / ratio;
         let mut change = 0.0;
         for (place, hypothesis) in self.hypotheses.iter().enumerate() {
             let factor = match of_kind.simulated[place] {
