@@ -10,11 +10,11 @@ use crate::{
 use phase_event::Event;
 use phase_evidence::{GoalOutcome, Manner, Track};
 use phase_files::{
-    FileError, Problem, WriteError, atomic,
+    FileError, WriteError, atomic,
     checksum::{FileEntry, sha256_hex},
     json,
 };
-use phase_model::{AGENT_COUNT, EventKind, Goal, Level, Relation, json::check_format};
+use phase_model::{AGENT_COUNT, EventKind, Goal, Level, Relation};
 use phase_sampler::Variant;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
@@ -231,11 +231,7 @@ impl Manifest {
     /// # Errors
     /// If it is not JSON, of another format, or incomplete.
     pub fn read(path: &Path) -> Result<Self, FileError> {
-        let fail = |problem| FileError { file: path.to_owned(), problem };
-        let value = json::read(path)?;
-        check_format(&value, DATASET_FORMAT).map_err(|error| fail(error.into()))?;
-        let what = "dataset manifest";
-        serde_json::from_value(value).map_err(|source| fail(Problem::Incomplete { what, source }))
+        json::read_format(path, DATASET_FORMAT, "dataset manifest")
     }
 
     /// The text of its file.

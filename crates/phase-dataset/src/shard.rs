@@ -10,10 +10,7 @@ use core::{iter::StepBy, ops::Range};
 use phase_files::{
     FileError, Problem, WriteError, atomic, checksum::FileEntry, json, measured::MeasuredFile, regular,
 };
-use phase_model::{
-    json::{check_format, parse_as},
-    setting::EVENTS,
-};
+use phase_model::{json::parse_as, setting::EVENTS};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use std::{
@@ -98,10 +95,7 @@ impl Shard {
         let path = folder.join(SHARD_FILE);
         let fail = |problem| FileError { file: path.clone(), problem };
         let what = "shard of a dataset";
-        let value = json::read(&path)?;
-        check_format(&value, SHARD_FORMAT).map_err(|error| fail(error.into()))?;
-        let shard: Self =
-            serde_json::from_value(value).map_err(|source| fail(Problem::Incomplete { what, source }))?;
+        let shard: Self = json::read_format(&path, SHARD_FORMAT, what)?;
         if shard.shard == 0 || shard.shard > shard.of {
             let rule = format!("there is no shard {} of {}", shard.shard, shard.of);
             return Err(fail(Problem::Shape { what, rule }));

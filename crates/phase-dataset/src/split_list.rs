@@ -2,7 +2,6 @@
 
 use crate::splits::{Item, Split};
 use phase_files::{FileError, Problem, WriteError, atomic, json};
-use phase_model::json::check_format;
 use serde::{Deserialize, Serialize};
 use std::{collections::BTreeMap, path::Path};
 
@@ -43,10 +42,7 @@ impl SplitList {
     /// # Errors
     /// If it is not JSON, of another format, or incomplete.
     pub fn read(path: &Path) -> Result<Self, FileError> {
-        let fail = |problem| FileError { file: path.to_owned(), problem };
-        let value = json::read(path)?;
-        check_format(&value, SPLITS_FORMAT).map_err(|error| fail(error.into()))?;
-        serde_json::from_value(value).map_err(|source| fail(Problem::Incomplete { what: WHAT, source }))
+        json::read_format(path, SPLITS_FORMAT, WHAT)
     }
 
     /// The part of each event.

@@ -27,6 +27,16 @@ pub struct Imagined {
     stops: [bool; AGENT_COUNT],
 }
 
+/// Equal dynamics lead from equal states to equal states.
+impl PartialEq for Imagined {
+    fn eq(&self, other: &Self) -> bool {
+        // Walls, shapes and torques follow from the physics.
+        let same_scenery =
+            Arc::ptr_eq(&self.scenery, &other.scenery) || self.scenery.collisions == other.scenery.collisions;
+        same_scenery && self.stops == other.stops && self.physics == other.physics
+    }
+}
+
 impl Imagined {
     /// Prepares the dynamics of a scene.
     #[must_use]

@@ -82,8 +82,8 @@
 //! and cheap. [`Forward::step_coarse`] makes a step in one substep, or in two where bodies may collide.
 //! Bodies that hold each other move as one rigid body, so grips need no solving, and the solvers stop
 //! earlier. Forces, ground friction, contacts and impacts on walls are the same; uniform acceleration gives
-//! the same displacement as five substeps. `tests/coarse.rs` compares it with exact steps: 90 % lie within
-//! 0.15 to 0.25 u, where a body moves about 1 u in a step.
+//! the same displacement as five substeps. `tests/forward/coarse.rs` compares it with exact steps: 90 % lie
+//! within 0.15 to 0.25 u, where a body moves about 1 u in a step.
 //!
 //! # Reachability and sleeping
 //!

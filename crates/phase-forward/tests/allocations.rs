@@ -1,5 +1,6 @@
 //! A step allocates nothing, whatever happens in it.
 
+#[path = "forward/scenes.rs"]
 mod scenes;
 
 use core::hint::black_box;

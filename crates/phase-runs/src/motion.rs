@@ -95,7 +95,7 @@ impl Answers {
             return Err(fail(Problem::Shape { what: RESULTS, rule }));
         }
         let events = value.get_mut("events").map(Value::take).unwrap_or_default();
-        let events: Vec<RecognisedEvent> = serde_json::from_value(events)
+        let events: Vec<RecognisedEvent> = phase_model::json::read_as(events)
             .map_err(|source| fail(Problem::Incomplete { what: RESULTS, source }))?;
         let judged = |event: RecognisedEvent| {
             let right = AgentId::ALL.map(|it| event.answer.place(it, event.label.goals[it]) == Some(0));

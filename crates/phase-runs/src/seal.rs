@@ -19,6 +19,7 @@ use phase_files::{
     new_folder::NewFolder,
     regular,
 };
+use phase_model::json::read_as;
 use phase_questions::{Control, Question};
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
@@ -99,7 +100,7 @@ pub fn unseal(
 ) -> Result<BTreeMap<String, String>, RunError> {
     let file = published.join(SEAL_FILE);
     let value: Value = phase_files::json::read(&file)?;
-    let sealed: Seal = serde_json::from_value(value).map_err(|error| unusable(&file, &error.to_string()))?;
+    let sealed: Seal = read_as(value).map_err(|error| unusable(&file, &error.to_string()))?;
     if sealed.format != FORMAT {
         return Err(unusable(&file, &format!("format: must be {FORMAT:?}, not {:?}", sealed.format)));
     }

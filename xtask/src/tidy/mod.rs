@@ -7,6 +7,7 @@ mod readmes;
 mod scan;
 mod sources;
 pub(crate) mod texts;
+mod unit_tests;
 mod words;
 
 pub use layers::layers;
@@ -75,6 +76,7 @@ pub fn check(root: &Path) -> Vec<Finding> {
     readmes::check(&mut workspace);
     sources::check(&mut workspace);
     texts::check(&mut workspace);
+    unit_tests::check(&mut workspace);
     words::check(&mut workspace);
     let mut findings = workspace.findings;
     findings.sort();

@@ -4,8 +4,10 @@ use std::{fs, path::Path};
 use xtask::tidy::{check, layers};
 
 const ROOT: &str = "//! It.\n//!\n//! ```\n//! # hidden();\n//! f();\n//! ```\n#![forbid(unsafe_code)]\n#![deny(missing_docs)]\n";
-/// Keys that a published crate must have.
-const KEYS: &str = "description = \"\"\nreadme = \"\"\nkeywords = []\ncategories = []\n";
+/// Keys that a published crate must have, and that its library has no unit tests.
+const KEYS: &str = "description = \"\"\nreadme = \"\"\nkeywords = []\ncategories = []\n[lib]\ntest = false\n";
+/// Of a library without unit tests.
+const UNTESTED: &str = "[lib]\ntest = false\n";
 
 fn readme_of(name: &str) -> String {
     format!("# {name}\n\nIt.\n\n```rust\nf();\n```\n")
@@ -29,13 +31,13 @@ fn workspace(root: &Path) {
         ("crates/phase-model/src/lib.rs", ROOT.to_owned()),
         (
             "crates/phase-world/Cargo.toml",
-            "publish = false\n[dependencies]\nphase-model.workspace = true\n".to_owned(),
+            format!("publish = false\n{UNTESTED}[dependencies]\nphase-model.workspace = true\n"),
         ),
         ("crates/phase-world/README.md", readme_of("phase-world")),
         ("crates/phase-world/src/lib.rs", ROOT.to_owned()),
         ("data/Cargo.toml", KEYS.to_owned()),
-        ("xtask/Cargo.toml", String::new()),
-        ("xtask/golden/Cargo.toml", "publish = false\n".to_owned()),
+        ("xtask/Cargo.toml", UNTESTED.to_owned()),
+        ("xtask/golden/Cargo.toml", format!("publish = false\n{UNTESTED}")),
         ("xtask/golden/README.md", "# phase-golden\n\nIt.\n".to_owned()),
         ("xtask/golden/src/lib.rs", bare),
         ("data/README.md", readme_of("phase-data")),
@@ -73,6 +75,7 @@ fn every_rule_is_checked() {
     let in_a_cycle = format!("{KEYS}[dev-dependencies]\nphase-world.workspace = true\n");
     let unsafe_root = ROOT.replace("#![forbid(unsafe_code)]\n", "");
     let other_example = ROOT.replace("f();", "g();");
+    let tested_root = format!("{ROOT}mod tests {{\n    #[test]\n    fn a() {{}}\n}}\n");
     let encoding = format!("{ROOT}use bin{}::serde;\n", "code");
     let reading = format!("{ROOT}fn f() {{ std::fs::read(1); TensorFile::open(2); }}\n");
     let cases: &[(&str, &str, &[&str])] = &[
@@ -84,13 +87,13 @@ fn every_rule_is_checked() {
         (
             "crates/phase-model/Cargo.toml",
             &upwards,
-            &["crates/phase-model/Cargo.toml:7: phase-model must not use phase-world, which is not below it"],
+            &["crates/phase-model/Cargo.toml:9: phase-model must not use phase-world, which is not below it"],
         ),
         ("crates/phase-model/Cargo.toml", &for_tests, &[]),
         (
             "crates/phase-model/Cargo.toml",
             &in_a_cycle,
-            &["crates/phase-model/Cargo.toml:6: tests of phase-model use phase-world, which is not below it"],
+            &["crates/phase-model/Cargo.toml:8: tests of phase-model use phase-world, which is not below it"],
         ),
         (
             "crates/phase-new/Cargo.toml",
@@ -170,6 +173,17 @@ fn every_rule_is_checked() {
             "xtask/src/more.rs",
             concat!("fn a() { dbg", "!(1); }\n"),
             &[concat!("xtask/src/more.rs:1: dbg", "!(…) must not stay")],
+        ),
+        (
+            "crates/phase-model/src/part.rs",
+            "#[test]\nfn a() {}\n",
+            &["crates/phase-model/src/part.rs:1: is not run: [lib] of crates/phase-model/Cargo.toml says"],
+        ),
+        ("xtask/src/main.rs", &tested_root, &[]),
+        (
+            "xtask/Cargo.toml",
+            "[[bin]]\ntest = false\n",
+            &["xtask/Cargo.toml:1: a library without unit tests must say `test = false`"],
         ),
         (
             ".ci/run",

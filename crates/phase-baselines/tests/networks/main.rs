@@ -9,4 +9,5 @@ mod masks;
 mod record;
 mod rounds;
 mod social_gnn;
+mod strength;
 mod support;

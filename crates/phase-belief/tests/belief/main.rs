@@ -1,5 +1,6 @@
 //! Beliefs: their invariants, their statistics, and drawn cases.
 
+mod ascribed;
 mod common;
 mod consistency;
 mod contest;

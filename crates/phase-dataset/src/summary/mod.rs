@@ -11,8 +11,7 @@ pub use comparison::{AgentComparison, EventComparison, MeasuredPair, MotionSumma
 pub use quartiles::Quartiles;
 pub use rows::{KindRow, MotionQuartiles, tabulate};
 
-use phase_files::{FileError, Problem, WriteError, atomic, json};
-use phase_model::json::check_format;
+use phase_files::{FileError, WriteError, atomic, json};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use std::path::Path;
@@ -50,10 +49,7 @@ impl SimulationSummary {
     /// # Errors
     /// If it is not JSON, of another format, or incomplete.
     pub fn read(path: &Path) -> Result<Self, FileError> {
-        let fail = |problem| FileError { file: path.to_owned(), problem };
-        let value = json::read(path)?;
-        check_format(&value, SUMMARY_FORMAT).map_err(|error| fail(error.into()))?;
-        serde_json::from_value(value).map_err(|source| fail(Problem::Incomplete { what: "summary", source }))
+        json::read_format(path, SUMMARY_FORMAT, "summary")
     }
 
     /// Writes the summary atomically.

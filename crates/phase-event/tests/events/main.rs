@@ -1,5 +1,6 @@
 //! Events in memory and as JSON, tested module by module.
 
+mod observed;
 mod read;
 mod real;
 mod round_trip;

@@ -1,12 +1,11 @@
 //! The input of the policy network: a search in numbers.
 
+use super::futures::{self, BEFORE_FORWARD, FORWARD, Futures, MOST_REPEATED};
 use crate::{aim::Aim, search::Task};
-use phase_model::{
-    AGENT_COUNT, Action, AgentId, Body, Entity, MAX_OBJECTS, ObjectId, RoomId, Sign, State, Vec2, arena,
-};
+use phase_model::{Action, AgentId, Body, Entity, MAX_OBJECTS, ObjectId, RoomId, Sign, State, Vec2, arena};
 
 /// Number of all actions.
-const ACTIONS: usize = Action::ALL.len();
+pub(super) const ACTIONS: usize = Action::ALL.len();
 /// Of the agent: velocity, radius, acceleration, strength relative to the other, free hands.
 const OF_SELF: usize = 6;
 /// Kinds of subgoals that are searched for.
@@ -22,10 +21,7 @@ const OF_OBJECT: usize = 11;
 /// of the best repeated action, and by how much the worst one's is less.
 pub const SHARED: usize = 3 + OF_SELF + OF_AIM + OF_OTHER + MAX_OBJECTS * OF_OBJECT;
 /// Steps for which an action is repeated in imagined futures.
-const REPEATED: [usize; 4] = [1, 2, 4, 8];
-/// Steps for which an action is repeated before the agent pushes forward, for [`FORWARD`] steps.
-const BEFORE_FORWARD: [usize; 3] = [1, 2, 4];
-const FORWARD: usize = 4;
+const REPEATED: [usize; 4] = [1, 2, 4, MOST_REPEATED];
 /// Imagined futures of an action.
 const FUTURES: usize = REPEATED.len() + BEFORE_FORWARD.len();
 /// Features of an action: the approach and the return of each future, as they are and among those of all
@@ -77,7 +73,7 @@ impl Features {
     }
 
     fn of_root(task: &Task<'_>, root: &State) -> Self {
-        let futures: Vec<Future> = task.actions.iter().map(|&action| future(task, root, action)).collect();
+        let futures = futures::each(task, root, |action, imagined| future(task, root, action, imagined));
         let (actions, best, range) = of_actions(task.actions, &futures);
         let frame = Frame { body: *root.body(Entity::Agent(task.agent)) };
         let mut list = List { values: [0.0; SHARED], length: 0 };
@@ -128,45 +124,35 @@ fn of_actions(actions: &[Action], futures: &[Future]) -> ([[f32; OF_ACTION]; ACT
     (features, most.clamp(-BOUND, BOUND), most - least)
 }
 
-fn future(task: &Task<'_>, root: &State, action: Action) -> Future {
-    let objects_at =
-        [ObjectId::ZERO, ObjectId::ONE].map(|object| task.roots[0].position(Entity::Object(object)));
+fn future(task: &Task<'_>, root: &State, action: Action, imagined: &Futures) -> Future {
     let sign = f64::from(task.aim.sign().value());
     let start = task.aim.distance(task.rooms, root);
-    let discount = task.parameters.discount;
-    // The state, its return, and the weight of the next reward.
-    let step = |(state, gained, weight): &mut (State, f64, f64), action: Action| {
-        let mut actions = [Action::NoForce; AGENT_COUNT];
-        actions[task.agent] = action;
-        task.imagined.step_reaching(task.agent, state, actions, objects_at);
-        *gained += *weight * task.aim.reward(task.rooms, state, action);
-        *weight *= discount;
+    // Adds the rewards of states after an action to a return, given the weight of the first.
+    let gain = |(gained, weight): &mut (f64, f64), states: &[State], action: Action| {
+        for state in states {
+            *gained += *weight * task.aim.reward(task.rooms, state, action);
+            *weight *= task.parameters.discount;
+        }
     };
-    let told = |(state, gained, _): &(State, f64, f64)| {
+    let told = |state: &State, (gained, _): (f64, f64)| {
         let approach = sign * (start - task.aim.distance(task.rooms, state));
-        (approach as f32, *gained as f32)
+        (approach as f32, gained as f32)
+    };
+    let repeated = imagined.repeated();
+    let after = |steps: usize| {
+        let mut sum = (0.0, 1.0);
+        gain(&mut sum, &repeated[..steps], action);
+        sum
     };
     let mut numbers = [(0.0, 0.0); FUTURES];
-    let mut places = numbers.iter_mut();
-    let mut put = |number| {
-        if let Some(place) = places.next() {
-            *place = number;
-        }
-    };
-    let mut at = (*root, 0.0, 1.0);
-    let mut before_forward = Vec::with_capacity(BEFORE_FORWARD.len());
-    for steps in 1..=REPEATED[REPEATED.len() - 1] {
-        step(&mut at, action);
-        if REPEATED.contains(&steps) {
-            put(told(&at));
-        }
-        if BEFORE_FORWARD.contains(&steps) {
-            before_forward.push(at);
-        }
+    let (of_repeated, of_forward) = numbers.split_at_mut(REPEATED.len());
+    for (steps, number) in REPEATED.into_iter().zip(of_repeated) {
+        *number = told(&repeated[steps - 1], after(steps));
     }
-    for mut at in before_forward {
-        (0..FORWARD).for_each(|_| step(&mut at, Action::Up));
-        put(told(&at));
+    for ((steps, states), number) in imagined.forward().zip(of_forward) {
+        let mut sum = after(steps);
+        gain(&mut sum, states, Action::Up);
+        *number = told(&states[FORWARD - 1], sum);
     }
     Future(numbers)
 }

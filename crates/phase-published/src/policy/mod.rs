@@ -4,6 +4,7 @@
 //! of searches ([`PublishedParameters::network_alone`](crate::PublishedParameters)).
 
 mod features;
+mod futures;
 
 pub use features::{Features, OF_ACTION, SHARED};
 use phase_model::Action;

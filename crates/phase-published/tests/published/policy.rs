@@ -2,7 +2,7 @@
 
 use crate::common::{ME, OTHER, ball_on, on_landmark, random, scene};
 use core::f32::consts::FRAC_PI_2;
-use phase_model::{Action, Attitude, Goal, LandmarkId, Scene};
+use phase_model::{Action, Attitude, Goal, LandmarkId, Scene, Strength};
 use phase_published::{Consideration, Mind, PolicyNetwork, PublishedParameters, policy::Features};
 
 fn mind(scene: &Scene) -> Mind {
@@ -108,5 +108,30 @@ fn features_do_not_depend_on_the_direction_of_the_world() {
     };
     for (k, (a, b)) in numbers(&one).iter().zip(numbers(&turned)).enumerate() {
         assert!((a - b).abs() < 0.02, "feature {k}: {a} {b}");
+    }
+}
+
+/// Futures that were imagined for other goals, from other places and by other bodies do not change what is
+/// thought in a state.
+#[test]
+fn features_do_not_depend_on_what_was_considered_before() {
+    let goals = [
+        on_landmark(ME, LandmarkId::TOP_RIGHT),
+        on_landmark(ME, LandmarkId::BOTTOM_LEFT),
+        ball_on(LandmarkId::BOTTOM_RIGHT),
+    ];
+    let mut scenes: Vec<Scene> = Vec::new();
+    for place in [(23.5, 12.0, 0.4), (23.5, 12.5, 0.4), (9.5, 18.0, 2.0)] {
+        scenes.extend(goals.map(|goal| open(place, goal, 0.0)));
+        scenes.extend(goals.map(|goal| {
+            let mut stronger = open(place, goal, 0.0);
+            stronger.agents[ME].strength = Strength::Mighty;
+            stronger
+        }));
+    }
+    // One thread knows what it imagined before.
+    let alone = |scene: &Scene| std::thread::scope(|scope| scope.spawn(|| considered(scene)).join().unwrap());
+    for scene in scenes.iter().chain(scenes.iter().rev()) {
+        assert_eq!(considered(scene).features, alone(scene).features);
     }
 }

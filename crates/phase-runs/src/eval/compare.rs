@@ -1,6 +1,7 @@
 //! Scores of one method less those of another, from the results of both.
 
 use phase_eval::comparison::{ForecastDifference, GoalDifference};
+use phase_model::json::read_as;
 use serde::de::DeserializeOwned;
 use serde_json::Value;
 
@@ -31,5 +32,5 @@ fn value(difference: Option<impl serde::Serialize>) -> Result<Value, String> {
 
 fn events_of<E: DeserializeOwned>(mut results: Value) -> Result<Vec<E>, String> {
     let events = results.get_mut("events").map(Value::take).unwrap_or_default();
-    serde_json::from_value(events).map_err(|error| format!("results of another task, or none: {error}"))
+    read_as(events).map_err(|error| format!("results of another task, or none: {error}"))
 }

@@ -3,7 +3,6 @@
 use super::task::{AnswerStore, EVENTS};
 use crate::{error::RunError, resume::check_complete};
 use phase_files::{FileError, Problem, atomic, json, run::Run};
-use phase_model::json::check_format;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
@@ -62,11 +61,8 @@ pub(super) fn read(folder: &Path) -> Result<EvaluationShard, RunError> {
         return Err(RunError::Usage(format!("{}: {rule}", folder.display())));
     }
     let fail = |problem| FileError { file: file.clone(), problem };
-    let value = json::read(&file)?;
-    check_format(&value, SHARD_FORMAT).map_err(|error| fail(error.into()))?;
     let what = "shard of an evaluation";
-    let part: EvaluationShard =
-        serde_json::from_value(value).map_err(|source| fail(Problem::Incomplete { what, source }))?;
+    let part: EvaluationShard = json::read_format(&file, SHARD_FORMAT, what)?;
     if part.shard == 0 || part.shard > part.of {
         let rule = format!("there is no shard {} of {}", part.shard, part.of);
         return Err(fail(Problem::Shape { what, rule }).into());

@@ -26,7 +26,10 @@ use phase_files::{
     json,
     run::Run,
 };
-use phase_model::random::{Purpose, derive_seed};
+use phase_model::{
+    json::read_as,
+    random::{Purpose, derive_seed},
+};
 use phase_report::evaluation::Subject;
 use serde::{Serialize, de::DeserializeOwned};
 use serde_json::{Value, json};
@@ -275,7 +278,7 @@ fn finished<A: ScoredEvent>(run: &Run, subject: Subject<'_>, out: PathBuf) -> Re
         RunError::Altered(FileError { file: file.clone(), problem })
     };
     let mut events: Vec<A> =
-        serde_json::from_value(results["events"].clone()).map_err(|error| altered(error.to_string()))?;
+        read_as(results["events"].clone()).map_err(|error| altered(error.to_string()))?;
     // Times are only for the report; without their file there are none.
     let times = json::read(&out.join(TIMES_FILE)).unwrap_or_default();
     for event in &mut events {

@@ -2,6 +2,7 @@
 
 use crate::error::RunError;
 use phase_files::{FileError, Problem, WriteError, atomic, json};
+use phase_model::json::read_as;
 use serde::de::DeserializeOwned;
 use std::{fs, path::Path};
 
@@ -11,7 +12,7 @@ pub(super) fn there_or_bundled<T: DeserializeOwned>(file: &Path, text: &str) -> 
         return bundled(&file.to_string_lossy(), text);
     }
     let value = json::read(file)?;
-    serde_json::from_value(value).map_err(|error| unfit(file, &error.to_string()))
+    read_as(value).map_err(|error| unfit(file, &error.to_string()))
 }
 
 /// The content of a file that this program has.

@@ -4,7 +4,7 @@ use super::QUESTIONS_FILE;
 use crate::{error::RunError, laboratory::unusable};
 use phase_files::{FileError, Problem, json, regular};
 use phase_model::{
-    json::{Field, FieldError, parse_line},
+    json::{Field, FieldError, parse_line, read_as},
     words::Names,
 };
 use phase_questions::{Answer, Control, Question, Score, accepted, parse_answer, parse_free, score};
@@ -59,7 +59,7 @@ pub(crate) fn questions(file: &Path) -> Result<Vec<Question>, RunError> {
     let text = regular::text(file)?;
     let read = |(k, line): (usize, &str)| {
         let value = parse_line(line.as_bytes(), k + 1).map_err(|error| unusable(file, &error.to_string()))?;
-        serde_json::from_value(value).map_err(|error| unusable(file, &format!("line {}: {error}", k + 1)))
+        read_as(value).map_err(|error| unusable(file, &format!("line {}: {error}", k + 1)))
     };
     text.lines().enumerate().map(read).collect()
 }

@@ -3,5 +3,6 @@
 mod family;
 mod measure;
 mod read;
+mod replay;
 mod spread;
 mod support;

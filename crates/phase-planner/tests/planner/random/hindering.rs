@@ -1,6 +1,6 @@
 //! Plans of a hinderer in random situations.
 
-use crate::problems::problems;
+use super::problems::problems;
 use phase_model::{AgentId, Attitude, BodySet, Entity, Goal, Subgoal};
 use phase_navigation::Map;
 use phase_planner::{

@@ -1,6 +1,6 @@
 //! Long runs of the published simulator, and real recordings whose actions are known.
 
-mod records;
+use crate::records;
 
 use phase_calibration::{
     ColdForward, Deviation, Engine, HorizonErrors, Replay, Run, WarmForward, horizon_errors, replay_reports,

@@ -1,6 +1,6 @@
 //! Plans of agents that contest an object, or wait for help.
 
-mod support;
+use crate::support;
 
 use phase_model::{AgentId, Attitude, ObjectId, Size::*, Strength::*, Vec2};
 use phase_planner::Planner;

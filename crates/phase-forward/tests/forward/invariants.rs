@@ -1,7 +1,7 @@
 //! Invariants of every state under all actions.
 
-mod scenes;
-mod walls;
+use crate::scenes;
+use crate::walls;
 
 use phase_forward::Forward;
 use phase_model::{

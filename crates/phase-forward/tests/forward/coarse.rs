@@ -1,7 +1,7 @@
 //! Coarse steps compared with exact steps from the same states.
 
-mod scenes;
-mod walls;
+use crate::scenes;
+use crate::walls;
 
 use core::cell::Cell;
 use phase_forward::Forward;

@@ -2,7 +2,7 @@
 //!
 //! `PHASE_SEARCH_PROBLEMS` sets the number of problems.
 
-use crate::problems::problems;
+use super::problems::problems;
 use petgraph::{
     algo::dijkstra,
     graph::{DiGraph, NodeIndex},

@@ -1,6 +1,6 @@
 //! Whether an observer can tell a helper from an agent with the same goal.
 
-use crate::problems::problems;
+use super::problems::problems;
 use phase_model::{AgentId, Attitude, BodySet, Entity, Goal, LandmarkId, Subgoal};
 use phase_planner::Planner;
 use proptest::{

@@ -1,6 +1,6 @@
 //! The kernel compared with the reference world: one step by each from every state of a simulated event.
 
-mod scenes;
+use crate::scenes;
 
 use phase_forward::Forward;
 use phase_model::{Action, Contacts, Dynamics, Entity, PhysicsConfig, State, arena};

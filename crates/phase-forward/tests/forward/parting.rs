@@ -2,7 +2,7 @@
 //! the world parts.
 
 #[allow(dead_code)]
-mod scenes;
+use crate::scenes;
 
 use phase_forward::Forward;
 use phase_model::{

@@ -1,6 +1,6 @@
 //! The published simulator's probes, replayed from their starts.
 
-mod records;
+use crate::records;
 
 use phase_calibration::{ColdForward, ErrorQuantiles, Probe, WarmForward};
 use records::text;

@@ -1,6 +1,6 @@
 //! After a release, an object and its former holder do not stay inside one another, in any kind of step.
 
-mod scenes;
+use crate::scenes;
 
 use phase_forward::Forward;
 use phase_model::{

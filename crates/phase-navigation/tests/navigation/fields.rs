@@ -1,6 +1,6 @@
 //! Distance fields against an independent search for shortest paths, and against lengths computed by hand.
 
-mod oracle;
+use crate::oracle;
 
 use oracle::Oracle;
 use phase_model::{Flip, Layout, RoomId, Vec2, arena, layout::room_of};

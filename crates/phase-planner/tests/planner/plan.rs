@@ -1,6 +1,6 @@
 //! Plans in hand-made situations: own goals, and each kind of help and hindrance.
 
-mod support;
+use crate::support;
 
 use phase_model::{AgentId, Attitude, Goal, LandmarkId, Sign, Size::*, Strength::*, Subgoal, Vec2};
 use phase_planner::{Planner, PlannerParameters};

@@ -1,0 +1,4 @@
+//! Minds of both kinds, tested module by module.
+
+mod agents;
+mod parameters;

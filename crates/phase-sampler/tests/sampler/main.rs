@@ -1,0 +1,5 @@
+//! Scenes, tested module by module.
+
+mod contrast;
+mod recipe;
+mod stage;

@@ -1,0 +1,4 @@
+//! Estimates and logarithms, tested module by module.
+
+mod logarithms;
+mod statistics;

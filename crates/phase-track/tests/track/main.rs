@@ -1,0 +1,5 @@
+//! Tracks of videos, tested module by module.
+
+mod shapes;
+mod table;
+mod video;
