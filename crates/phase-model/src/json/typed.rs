@@ -51,6 +51,7 @@ fn expected(rule: &str) -> &str {
         "a string" | "a borrowed string" => "a text",
         "a sequence" => "an array",
         "a map" => "an object",
+        "string or map" => "a text or an object",
         other if other.starts_with("struct ") => "an object",
         other => other,
     }

@@ -13,13 +13,11 @@ const SCENES: u64 = 12;
 proptest! {
     #![proptest_config(ProptestConfig { cases: 12, failure_persistence: None, ..ProptestConfig::default() })]
 
-    /// From starts without overlaps, engines make hardly any energy where nothing is held: 3 substeps of 1.3
-    /// million did.
+    /// From starts at rest without overlaps, engines make hardly any energy where nothing is held.
     #[test]
-    fn energy_comes_from_somewhere(seed in 0..u64::MAX / 2, fast in any::<bool>()) {
-        let begins = if fast { Start::Fast } else { Start::Apart };
+    fn energy_comes_from_somewhere(seed in 0..u64::MAX / 2) {
         for kind in [Kind::World, Kind::Kernel, Kind::KernelWithCache] {
-            let gains = energy_gains(kind, begins, seed..seed + SCENES);
+            let gains = energy_gains(kind, Start::Apart, seed..seed + SCENES);
             prop_assert_eq!(gains.separating, 0, "{}: {:?}", kind.name(), gains);
             prop_assert!(gains.free <= 3 && gains.most_free <= 2.0, "{}: {:?}", kind.name(), gains);
         }
@@ -65,6 +63,16 @@ fn energy_is_rarely_made_by_grips() {
         assert!(gains.substeps > 20_000);
         let found = gains.holding as f32 / gains.substeps as f32;
         assert!(found <= share && gains.most_holding <= most, "{}: {gains:?}", kind.name());
+    }
+}
+
+/// Where bodies start fast and nothing is held, too: 3 substeps of 1.3 million do, and none of
+/// these.
+#[test]
+fn energy_is_hardly_ever_made_by_speed() {
+    for kind in [Kind::World, Kind::Kernel, Kind::KernelWithCache] {
+        let gains = energy_gains(kind, Start::Fast, MANY);
+        assert_eq!((gains.separating, gains.free), (0, 0), "{}: {gains:?}", kind.name());
     }
 }
 
