@@ -1,11 +1,14 @@
 //! Nothing is built a second time for tests that it does not have, and no test is left out.
 
 use super::{Package, Workspace};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 /// Every library without unit tests says so, and nothing that says so has any.
 pub(super) fn check(workspace: &mut Workspace) {
     for package in workspace.all_packages() {
+        if !has_library(workspace, &package) {
+            continue;
+        }
         let tests = tests_of(workspace, &package);
         let (of_program, of_library): (Vec<_>, Vec<_>) =
             tests.into_iter().partition(|(file, _)| file.ends_with("src/main.rs"));
@@ -19,7 +22,7 @@ pub(super) fn check(workspace: &mut Workspace) {
                 }
             }
         }
-        if of_library.is_empty() && !is_not_tested(&text, "[lib]") && has_library(workspace, &package) {
+        if of_library.is_empty() && !is_not_tested(&text, "[lib]") {
             workspace.report(&manifest, 1, "a library without unit tests must say `test = false`");
         }
     }
@@ -43,7 +46,5 @@ fn is_not_tested(manifest: &str, header: &str) -> bool {
 }
 
 fn has_library(workspace: &Workspace, package: &Package) -> bool {
-    ["src/lib.rs", "lib.rs"]
-        .iter()
-        .any(|name| workspace.root.join(package.folder.join(Path::new(name))).is_file())
+    ["src/lib.rs", "lib.rs"].iter().any(|name| workspace.root.join(package.folder.join(name)).is_file())
 }
