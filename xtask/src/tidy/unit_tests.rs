@@ -31,7 +31,10 @@ pub(super) fn check(workspace: &mut Workspace) {
 /// Files and lines of the unit tests of a package.
 fn tests_of(workspace: &mut Workspace, package: &Package) -> Vec<(PathBuf, usize)> {
     let mut tests = Vec::new();
-    for file in workspace.files(&[&package.folder.join("src").to_string_lossy()], &[".rs"]) {
+    let mut files = workspace.files(&[&package.folder.join("src").to_string_lossy()], &[".rs"]);
+    let beside = package.folder.join("lib.rs");
+    files.extend(workspace.root.join(&beside).is_file().then_some(beside));
+    for file in files {
         let Some(text) = workspace.read(&file) else { continue };
         let lines = (1..).zip(text.lines()).filter(|(_, line)| line.trim() == "#[test]");
         tests.extend(lines.map(|(number, _)| (file.clone(), number)));

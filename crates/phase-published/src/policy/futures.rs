@@ -19,7 +19,6 @@ const STEPS: usize = MOST_REPEATED + BEFORE_FORWARD.len() * FORWARD;
 const KEPT: usize = 8;
 
 /// The states after each step of an action's imagined futures.
-#[derive(Clone, Debug)]
 pub(super) struct Futures([State; STEPS]);
 
 impl Futures {
@@ -54,7 +53,6 @@ impl Futures {
 }
 
 /// All that imagined futures depend on, but for the action.
-#[derive(Clone, PartialEq, Debug)]
 struct Beginning {
     agent: AgentId,
     state: State,
