@@ -2,7 +2,7 @@
 //! of settings; with a reference workload by which the machine's noise can be estimated.
 
 use core::hint::black_box;
-use criterion::{BenchmarkId, Criterion, SamplingMode};
+use criterion::{BatchSize, BenchmarkId, Criterion, SamplingMode};
 use phase_agent::{Mind, PolicyNetwork};
 use phase_belief::Belief;
 use phase_forward::Forward;
@@ -125,11 +125,17 @@ fn main() {
     ] {
         criterion.bench_function(&format!("published/one decision {name}"), |bencher| {
             let mut random = stream(1, Purpose::Belief, 0);
-            let seen = phase_minds::observe(MindKind::Published, &physics, &state, AgentId::ZERO);
-            let mut agent = Agent::new(&scene, &parameters.into(), &seen, Some(&state), &mut random)
-                .expect("good parameters");
             let mut search = stream(1, Purpose::Search, 0);
-            bencher.iter(|| agent.decide(&mut search));
+            let parameters = parameters.into();
+            // Minds remember what they imagined in a state, so that every decision is in another one.
+            let mut places = (0..1000_u16).map(|k| f32::from(k) * 1e-4).cycle();
+            let elsewhere = || {
+                let mut moved = state;
+                moved.bodies[0].position.x += places.next().unwrap_or_default();
+                let seen = phase_minds::observe(MindKind::Published, &physics, &moved, AgentId::ZERO);
+                Agent::new(&scene, &parameters, &seen, Some(&moved), &mut random).expect("good parameters")
+            };
+            bencher.iter_batched(elsewhere, |mut agent| agent.decide(&mut search), BatchSize::SmallInput);
         });
     }
     scaling(&mut criterion, &scene);
