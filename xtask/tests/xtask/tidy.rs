@@ -208,6 +208,17 @@ fn every_rule_is_checked() {
     }
 }
 
+/// A program that says that it has no tests must have none.
+#[test]
+fn tests_of_a_program_are_not_left_out() {
+    let folder = tempfile::tempdir().expect("a folder");
+    workspace(folder.path());
+    write(folder.path(), "xtask/Cargo.toml", &format!("{UNTESTED}[[bin]]\nname = \"xtask\"\ntest = false\n"));
+    write(folder.path(), "xtask/src/main.rs", &format!("{ROOT}#[test]\nfn a() {{}}\n"));
+    let expected = "xtask/src/main.rs:9: is not run: [[bin]] of xtask/Cargo.toml says `test = false`";
+    assert_eq!(findings(folder.path()), [expected]);
+}
+
 #[test]
 fn the_layers_are_those_there_are() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");

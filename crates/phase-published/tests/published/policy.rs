@@ -130,7 +130,9 @@ fn features_do_not_depend_on_what_was_considered_before() {
         }));
     }
     // One thread knows what it imagined before.
-    let alone = |scene: &Scene| std::thread::scope(|scope| scope.spawn(|| considered(scene)).join().unwrap());
+    let alone = |scene: &Scene| {
+        std::thread::scope(|scope| scope.spawn(|| considered(scene)).join().expect("a decision"))
+    };
     for scene in scenes.iter().chain(scenes.iter().rev()) {
         assert_eq!(considered(scene).features, alone(scene).features);
     }
