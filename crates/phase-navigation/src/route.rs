@@ -96,7 +96,8 @@ impl Map {
         }
         let mut best: Option<Route> = None;
         for way in self.ways(here, there) {
-            if best.is_some_and(|best| self.length_lower_bound(way, from, to) >= best.cost) {
+            let least = || self.lower_bound(way, from, to, width, gaps, impassable);
+            if best.is_some_and(|best| least() >= best.cost) {
                 continue;
             }
             let route = self.along(way, from, to, width, gaps, impassable);
@@ -115,17 +116,33 @@ impl Map {
             .map_or_else(|| from.distance(to) + impassable * MAX_DOORS as f32, |route| route.cost)
     }
 
-    /// A lower bound on the length of routes through several doors (u), cheap to compute.
-    fn length_lower_bound(&self, way: &[Crossing], from: Vec2, to: Vec2) -> f32 {
+    /// A lower bound on the cost of a route (u), cheap to compute; of one through a single door only its
+    /// price.
+    fn lower_bound(
+        &self,
+        way: &[Crossing],
+        from: Vec2,
+        to: Vec2,
+        width: f32,
+        gaps: &Gaps,
+        price: f32,
+    ) -> f32 {
+        let opening = |door: &Crossing| self.gaps().0[door.slot].unwrap_or((0.0, 0.0));
         let near = |door: &Crossing, point: Vec2| {
-            let (low, high) = self.gaps().0[door.slot].unwrap_or((0.0, 0.0));
+            let (low, high) = opening(door);
             let along = (point - arena::CENTRE).dot(SLOT_DIRECTIONS[door.slot]);
             point.distance(point_in(door.slot, along.max(low).min(high)))
         };
-        match way {
-            [first, .., last] => near(first, from) + near(last, to),
+        // Doors that follow one another are at right angles.
+        let between = |doors: &[Crossing]| Vec2::new(opening(&doors[0]).0, opening(&doors[1]).0).length();
+        let length = match way {
+            [first, .., last] => {
+                near(first, from) + way.windows(2).map(between).sum::<f32>() + near(last, to)
+            }
             _ => 0.0,
-        }
+        };
+        let impassable = way.iter().filter(|step| gaps.width(step.slot) < width).count();
+        length + price * impassable as f32
     }
 
     fn along(&self, way: &[Crossing], from: Vec2, to: Vec2, width: f32, gaps: &Gaps, price: f32) -> Route {

@@ -12,7 +12,7 @@ use std::ops::RangeInclusive;
 pub(crate) const WAITS: RangeInclusive<u16> = 40..=48;
 
 /// The victim wants itself or an object on a landmark.
-pub(crate) fn hinder(goals: [Goal; 2], random: &mut impl Rng) -> Option<SceneDraft> {
+pub(crate) fn hinder(goals: [Goal; 2], random: &mut dyn Rng) -> Option<SceneDraft> {
     let target = goals[1].landmark()?.room();
     let hinderer = hindering(agent(
         any_size(random),
@@ -32,17 +32,17 @@ pub(crate) fn hinder(goals: [Goal; 2], random: &mut impl Rng) -> Option<SceneDra
 }
 
 /// The victim wants to touch the hinderer, or to get away from it.
-pub(crate) fn hinder_touch(goals: [Goal; 2], random: &mut impl Rng) -> Option<SceneDraft> {
+pub(crate) fn hinder_touch(goals: [Goal; 2], random: &mut dyn Rng) -> Option<SceneDraft> {
     let mut draft = chase(goals, random)?;
     draft.agents[0] = hindering(draft.agents[0]);
     Some(draft)
 }
 
 /// In different rooms, both strong enough to move.
-pub(crate) fn chase(goals: [Goal; 2], random: &mut impl Rng) -> Option<SceneDraft> {
+pub(crate) fn chase(goals: [Goal; 2], random: &mut dyn Rng) -> Option<SceneDraft> {
     let room = any_room(random);
     let rooms = [room, draft::other_room(&[room], random)?];
-    let one = |k: usize, random: &mut _| {
+    let one = |k: usize, random: &mut dyn Rng| {
         agent(choose(&Size::ALL, random), choose(&SELF_SUFFICIENT, random), goals[k], rooms[k], random)
     };
     let agents = [one(0, random), one(1, random)];
@@ -50,7 +50,7 @@ pub(crate) fn chase(goals: [Goal; 2], random: &mut impl Rng) -> Option<SceneDraf
 }
 
 /// One object, in neither of the landmarks' rooms.
-pub(crate) fn compete(goals: [Goal; 2], random: &mut impl Rng) -> Option<SceneDraft> {
+pub(crate) fn compete(goals: [Goal; 2], random: &mut dyn Rng) -> Option<SceneDraft> {
     let room = draft::other_room(&[goals[0].landmark()?.room(), goals[1].landmark()?.room()], random)?;
     let agents = goals.map(|goal| {
         agent(any_size(random), choose(&SELF_SUFFICIENT, random), goal, any_room(random), random)
@@ -59,7 +59,7 @@ pub(crate) fn compete(goals: [Goal; 2], random: &mut impl Rng) -> Option<SceneDr
 }
 
 /// As [`compete`], but the first waits, and knows of the object where it was at the start.
-pub(crate) fn seek(goals: [Goal; 2], random: &mut impl Rng) -> Option<SceneDraft> {
+pub(crate) fn seek(goals: [Goal; 2], random: &mut dyn Rng) -> Option<SceneDraft> {
     let mut draft = compete(goals, random)?;
     let waits = random.random_range(WAITS);
     draft.agents[0].awareness = Awareness { sees: Sight::Start, waits, ..Awareness::default() };

@@ -161,7 +161,7 @@ impl Contrast {
     ///
     /// # Errors
     /// [`SampleError`] if the draws are exhausted, for example because a stance does not suit the goal.
-    pub fn sample(request: &ContrastRequest<'_>, random: &mut impl Rng) -> Result<Self, SampleError> {
+    pub fn sample(request: &ContrastRequest<'_>, random: &mut dyn Rng) -> Result<Self, SampleError> {
         let variant = request.stances.first().map_or(Variant::Places, |stance| stance.variant(request.about));
         if request.layouts.is_empty() || !request.stances.iter().all(|stance| stance.suits(request.about)) {
             return Err(SampleError(variant));
@@ -189,7 +189,7 @@ impl Contrast {
 }
 
 /// One draw, with the changed agent as agent 0; `None` if a stance is impossible in it.
-fn propose(request: &ContrastRequest<'_>, random: &mut impl Rng) -> Option<Vec<Scene>> {
+fn propose(request: &ContrastRequest<'_>, random: &mut dyn Rng) -> Option<Vec<Scene>> {
     let landmarks = LandmarkId::ALL;
     let landmark = request.goal_index % landmarks.len();
     let round = request.goal_index / landmarks.len();

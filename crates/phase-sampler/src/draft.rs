@@ -96,9 +96,9 @@ impl SceneDraft {
         kind: EventKind,
         layout: Layout,
         (count, starts): (Objects, Starts),
-        random: &mut impl Rng,
+        random: &mut dyn Rng,
     ) -> Scene {
-        let stray = |random: &mut _| object(any_size(random), any_room(random), random);
+        let stray = |random: &mut dyn Rng| object(any_size(random), any_room(random), random);
         let first = self.first_goal_object;
         let mut objects: Vec<ObjectSpec> = (0..first).map(|_| stray(random)).collect();
         objects.extend(self.goal_objects);
@@ -121,28 +121,28 @@ impl SceneDraft {
 }
 
 /// One of several equally likely items. The slice must not be empty.
-pub fn choose<T: Copy>(options: &[T], random: &mut impl Rng) -> T {
+pub fn choose<T: Copy>(options: &[T], random: &mut dyn Rng) -> T {
     options[random.random_range(0..options.len())]
 }
 
 /// A room other than those given, if there is one.
-pub fn other_room(taken: &[RoomId], random: &mut impl Rng) -> Option<RoomId> {
+pub fn other_room(taken: &[RoomId], random: &mut dyn Rng) -> Option<RoomId> {
     let free: Vec<RoomId> = RoomId::ALL.into_iter().filter(|room| !taken.contains(room)).collect();
     (!free.is_empty()).then(|| choose(&free, random))
 }
 
 /// Any of the four rooms.
-pub fn any_room(random: &mut impl Rng) -> RoomId {
+pub fn any_room(random: &mut dyn Rng) -> RoomId {
     choose(&RoomId::ALL, random)
 }
 
 /// Any of the four sizes.
-pub fn any_size(random: &mut impl Rng) -> Size {
+pub fn any_size(random: &mut dyn Rng) -> Size {
     choose(&Size::ALL, random)
 }
 
 /// A narrow door of a room, which only the smallest agents fit through, and the room beyond it.
-pub fn narrow_door_of(layout: Layout, room: RoomId, random: &mut impl Rng) -> Option<(SlotId, RoomId)> {
+pub fn narrow_door_of(layout: Layout, room: RoomId, random: &mut dyn Rng) -> Option<(SlotId, RoomId)> {
     let is_narrow = |door: &Crossing| door.opening.length() <= NARROW_DOOR_WIDTH;
     let doors: Vec<(SlotId, RoomId)> =
         Crossing::out_of(layout, room).filter(is_narrow).map(|door| (door.slot, door.to)).collect();
@@ -150,7 +150,7 @@ pub fn narrow_door_of(layout: Layout, room: RoomId, random: &mut impl Rng) -> Op
 }
 
 /// A body at rest near one of a room's start points, facing anywhere.
-pub fn start_in(room: RoomId, random: &mut impl Rng) -> Body {
+pub fn start_in(room: RoomId, random: &mut dyn Rng) -> Body {
     let point = choose(&arena::START_POINTS[room], random);
     let jitter = Vec2::new(
         random.random_range(-START_JITTER..START_JITTER),
@@ -160,12 +160,12 @@ pub fn start_in(room: RoomId, random: &mut impl Rng) -> Body {
 }
 
 /// A direction (rad).
-pub fn any_angle(random: &mut impl Rng) -> f32 {
+pub fn any_angle(random: &mut dyn Rng) -> f32 {
     random.random_range(-core::f32::consts::PI..core::f32::consts::PI)
 }
 
 /// A neutral agent.
-pub fn agent(size: Size, strength: Strength, goal: Goal, room: RoomId, random: &mut impl Rng) -> AgentSpec {
+pub fn agent(size: Size, strength: Strength, goal: Goal, room: RoomId, random: &mut dyn Rng) -> AgentSpec {
     AgentSpec {
         size,
         strength,
@@ -189,7 +189,7 @@ pub const fn hindering(agent: AgentSpec) -> AgentSpec {
 }
 
 /// An object.
-pub fn object(size: Size, room: RoomId, random: &mut impl Rng) -> ObjectSpec {
+pub fn object(size: Size, room: RoomId, random: &mut dyn Rng) -> ObjectSpec {
     let mut start = start_in(room, random);
     start.angle = 0.0;
     ObjectSpec { size, start }

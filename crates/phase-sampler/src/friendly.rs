@@ -12,7 +12,7 @@ const BLOCKING_GAP: f32 = 0.3;
 const CLEARANCE: f32 = 0.05;
 
 /// The helpee is too weak for the object it wants moved.
-pub(crate) fn lift(goals: [Goal; 2], random: &mut impl Rng) -> Option<SceneDraft> {
+pub(crate) fn lift(goals: [Goal; 2], random: &mut dyn Rng) -> Option<SceneDraft> {
     let room = draft::other_room(&[goals[1].landmark()?.room()], random)?;
     // The helper starts in another room, so that the helpee's goal is visible before it arrives.
     let elsewhere = draft::other_room(&[room], random)?;
@@ -23,7 +23,7 @@ pub(crate) fn lift(goals: [Goal; 2], random: &mut impl Rng) -> Option<SceneDraft
 }
 
 /// The helpee is too big for the door behind which its object lies.
-pub(crate) fn blocked(layout: Layout, goals: [Goal; 2], random: &mut impl Rng) -> Option<SceneDraft> {
+pub(crate) fn blocked(layout: Layout, goals: [Goal; 2], random: &mut dyn Rng) -> Option<SceneDraft> {
     let outside = goals[1].landmark()?.room();
     let (_, inside) = draft::narrow_door_of(layout, outside, random)?;
     let helper = helping(agent(any_size(random), choose(&SELF_SUFFICIENT, random), goals[0], inside, random));
@@ -33,7 +33,7 @@ pub(crate) fn blocked(layout: Layout, goals: [Goal; 2], random: &mut impl Rng) -
 }
 
 /// A big object stands behind the door that the helpee has to go through.
-pub(crate) fn clear(layout: Layout, goals: [Goal; 2], random: &mut impl Rng) -> Option<SceneDraft> {
+pub(crate) fn clear(layout: Layout, goals: [Goal; 2], random: &mut dyn Rng) -> Option<SceneDraft> {
     let beyond = goals[1].landmark()?.room();
     let (slot, here) = draft::narrow_door_of(layout, beyond, random)?;
     let helper = helping(agent(any_size(random), Strength::Mighty, goals[0], beyond, random));
@@ -53,7 +53,7 @@ pub(crate) fn clear(layout: Layout, goals: [Goal; 2], random: &mut impl Rng) -> 
 
 /// Both want the same object on the same landmark. Equal strengths, as the published scripts draw them; two
 /// of the weakest cannot move anything together.
-pub(crate) fn carry(goals: [Goal; 2], random: &mut impl Rng) -> Option<SceneDraft> {
+pub(crate) fn carry(goals: [Goal; 2], random: &mut dyn Rng) -> Option<SceneDraft> {
     let room = draft::other_room(&[goals[1].landmark()?.room()], random)?;
     let strength = choose(&SELF_SUFFICIENT, random);
     let agents = goals.map(|goal| agent(any_size(random), strength, goal, any_room(random), random));
@@ -62,7 +62,7 @@ pub(crate) fn carry(goals: [Goal; 2], random: &mut impl Rng) -> Option<SceneDraf
 
 /// The helpee is too big for the door behind which its object lies, and its landmark is in a third room: once
 /// the object is outside, the helpee can take it on.
-pub(crate) fn passed_on(layout: Layout, goals: [Goal; 2], random: &mut impl Rng) -> Option<SceneDraft> {
+pub(crate) fn passed_on(layout: Layout, goals: [Goal; 2], random: &mut dyn Rng) -> Option<SceneDraft> {
     let target = goals[1].landmark()?.room();
     let outside = draft::other_room(&[target], random)?;
     let (_, inside) = draft::narrow_door_of(layout, outside, random)?;
@@ -76,7 +76,7 @@ pub(crate) fn passed_on(layout: Layout, goals: [Goal; 2], random: &mut impl Rng)
 }
 
 /// The helper stands in the narrow door that the helpee has to go through.
-pub(crate) fn in_the_way(layout: Layout, goals: [Goal; 2], random: &mut impl Rng) -> Option<SceneDraft> {
+pub(crate) fn in_the_way(layout: Layout, goals: [Goal; 2], random: &mut dyn Rng) -> Option<SceneDraft> {
     let beyond = goals[1].landmark()?.room();
     let (slot, here) = draft::narrow_door_of(layout, beyond, random)?;
     let mut helper =

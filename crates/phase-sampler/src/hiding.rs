@@ -51,7 +51,7 @@ impl Hiding {
     }
 
     /// A start of agent 0 for which that [holds](Self::hides), if one of some that are drawn is such.
-    pub(crate) fn draw_start(mut self, starts: Starts, random: &mut impl Rng) -> Option<Body> {
+    pub(crate) fn draw_start(mut self, starts: Starts, random: &mut dyn Rng) -> Option<Body> {
         (0..MAX_STARTS).find_map(|_| {
             let mut start = start_in(any_room(random), random);
             start.position = starts.place(start.position);

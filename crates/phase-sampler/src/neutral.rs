@@ -5,7 +5,7 @@ use phase_model::{Goal, Strength};
 use rand::Rng;
 
 /// Each agent has its own goal; goals about different objects, each in another room than its landmark.
-pub(crate) fn independent(goals: [Goal; 2], random: &mut impl Rng) -> Option<SceneDraft> {
+pub(crate) fn independent(goals: [Goal; 2], random: &mut dyn Rng) -> Option<SceneDraft> {
     let mut objects = Vec::new();
     let mut agents = Vec::new();
     for goal in goals {

@@ -41,7 +41,7 @@ pub struct SampleError(pub Variant);
 ///
 /// # Errors
 /// [`SampleError`] if the draws are exhausted, for example because no layout fits the variant.
-pub fn sample(request: &Request<'_>, random: &mut impl Rng) -> Result<Scene, SampleError> {
+pub fn sample(request: &Request<'_>, random: &mut dyn Rng) -> Result<Scene, SampleError> {
     for _ in 0..MAX_DRAWS {
         if request.layouts.is_empty() {
             break;
@@ -56,7 +56,7 @@ pub fn sample(request: &Request<'_>, random: &mut impl Rng) -> Result<Scene, Sam
 
 /// One draw of a scene with role 0 as agent 0, which may be unable to show its variant; `None` if there is no
 /// place for its bodies.
-pub(crate) fn propose(request: &Request<'_>, count: Objects, random: &mut impl Rng) -> Option<Scene> {
+pub(crate) fn propose(request: &Request<'_>, count: Objects, random: &mut dyn Rng) -> Option<Scene> {
     let Request { variant, goal_index, layouts, starts } = *request;
     let layout = choose(layouts, random);
     let draft = draft(variant, layout, variant.goals(goal_index), random)?;
@@ -67,7 +67,7 @@ pub(crate) fn propose(request: &Request<'_>, count: Objects, random: &mut impl R
 ///
 /// # Errors
 /// As [`sample`].
-pub fn sample_variant(variant: Variant, random: &mut impl Rng) -> Result<Scene, SampleError> {
+pub fn sample_variant(variant: Variant, random: &mut dyn Rng) -> Result<Scene, SampleError> {
     let layouts: Vec<Layout> = Layout::all_used().collect();
     let goal_index = random.random_range(0..variant.goal_count());
     sample(&Request { variant, goal_index, layouts: &layouts, starts: Starts::Near }, random)
@@ -78,13 +78,13 @@ pub fn sample_variant(variant: Variant, random: &mut impl Rng) -> Result<Scene, 
 ///
 /// # Errors
 /// As [`sample`].
-pub fn sample_kind(kind: EventKind, random: &mut impl Rng) -> Result<Scene, SampleError> {
+pub fn sample_kind(kind: EventKind, random: &mut dyn Rng) -> Result<Scene, SampleError> {
     let mut variants = Variant::of(kind);
     variants.retain(|variant| variant.is_first_edition());
     sample_variant(choose(&variants, random), random)
 }
 
-fn draft(variant: Variant, layout: Layout, goals: [Goal; 2], random: &mut impl Rng) -> Option<SceneDraft> {
+fn draft(variant: Variant, layout: Layout, goals: [Goal; 2], random: &mut dyn Rng) -> Option<SceneDraft> {
     match variant {
         Variant::Lift | Variant::Assist => friendly::lift(goals, random),
         Variant::Fetch if random.random_bool(0.5) => friendly::lift(goals, random),

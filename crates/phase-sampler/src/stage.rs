@@ -87,7 +87,7 @@ impl Stage {
         parts: &[Part],
         layouts: &[Layout],
         starts: Starts,
-        random: &mut impl Rng,
+        random: &mut dyn Rng,
     ) -> Result<Self, SampleError> {
         let Some(&lead) = parts.first() else { return Err(SampleError(Variant::Places)) };
         for goals in [Goals::Own, Goals::Any] {
@@ -123,16 +123,16 @@ impl Stage {
     /// A scene of this part on the stage: who plays which role, which object has which number, strengths and
     /// directions are drawn. Where the part's goals cannot be pursued on the stage, the next ones are tried.
     /// `None` if the variant cannot be played at all.
-    pub fn cast(&self, part: Part, random: &mut impl Rng) -> Option<Scene> {
+    pub fn cast(&self, part: Part, random: &mut dyn Rng) -> Option<Scene> {
         self.cast_with(Goals::Any, part, random)
     }
 
-    fn cast_with(&self, goals: Goals, part: Part, random: &mut impl Rng) -> Option<Scene> {
+    fn cast_with(&self, goals: Goals, part: Part, random: &mut dyn Rng) -> Option<Scene> {
         part.with(goals).find_map(|part| self.cast_exactly(part, random))
     }
 
     /// Whether the bodies' places allow the part; see [`requirements::may_be_playable`].
-    fn may_allow(&self, part: Part, random: &mut impl Rng) -> bool {
+    fn may_allow(&self, part: Part, random: &mut dyn Rng) -> bool {
         WAYS.iter().any(|&(agents_swapped, objects_swapped)| {
             let scene = self.assigned(part, agents_swapped, objects_swapped, random);
             part.suits(&scene) && requirements::may_be_playable(part.variant, &scene)
@@ -140,7 +140,7 @@ impl Stage {
     }
 
     /// A scene of this part on the stage, with its own goals.
-    fn cast_exactly(&self, part: Part, random: &mut impl Rng) -> Option<Scene> {
+    fn cast_exactly(&self, part: Part, random: &mut dyn Rng) -> Option<Scene> {
         let mut ways = WAYS;
         ways.shuffle(random);
         for (agents_swapped, objects_swapped) in ways {
@@ -159,7 +159,7 @@ impl Stage {
     ///
     /// # Errors
     /// [`SampleError`] if the draws are exhausted.
-    pub fn scene(&self, part: Part, random: &mut impl Rng) -> Result<Scene, SampleError> {
+    pub fn scene(&self, part: Part, random: &mut dyn Rng) -> Result<Scene, SampleError> {
         let mut goals = [Goals::Own, Goals::Any].into_iter().flat_map(|goals| [goals; MAX_CASTS]);
         let drawn = goals.find_map(|goals| self.cast_with(goals, part, random));
         drawn.ok_or(SampleError(part.variant))
@@ -171,7 +171,7 @@ impl Stage {
         part: Part,
         agents_swapped: bool,
         objects_swapped: bool,
-        random: &mut impl Rng,
+        random: &mut dyn Rng,
     ) -> Scene {
         let Part { variant, goal_index, .. } = part;
         let goals = variant.goals(goal_index);

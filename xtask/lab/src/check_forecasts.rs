@@ -5,6 +5,9 @@
 //! SIMPLE loses against these is the price of inference. One of the told futures is then forecast by the
 //! others, as if it were the event: what remains is chance, which no forecaster can know in advance. The rest
 //! is what the minds do otherwise than those of the events.
+//!
+//! SIMPLE's own futures are forecast by one another, too. That is the error that SIMPLE expects: if its
+//! probabilities are right, the error that it makes is no greater on average.
 
 use crate::{
     error::LabError,
@@ -34,7 +37,8 @@ const LEAST_PROBABILITY: f64 = 0.1;
 type EventErrors = [[f64; 2]; ROWS.len()];
 
 /// The forecasts that are compared.
-const ROWS: [&str; 4] = ["simple", "told", "told, one future", "told, of its own future"];
+const ROWS: [&str; 5] =
+    ["simple", "told", "told, one future", "told, of its own future", "simple, of its own future"];
 
 /// Errors of one event, kept in a file.
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -85,6 +89,7 @@ fn table(found: &[EventErrors], seed: u64) -> String {
     line("inference", &|errors, k| errors[0][k] - errors[1][k]);
     line("minds", &|errors, k| errors[1][k] - errors[3][k]);
     line("chance", &|errors, k| errors[3][k]);
+    line("simple less its own", &|errors, k| errors[0][k] - errors[4][k]);
     text
 }
 
@@ -129,13 +134,24 @@ fn errors(
     let told = Futures::new(weighted.collect());
     let Some((likely, _)) = by_kind.first() else { return Ok(None) };
     let one = mean(likely.iter().map(|future| error(future, &truth)))?;
-    let own = mean((0..likely.len()).map(|left_out| {
-        let others = likely.iter().enumerate().filter(|(k, _)| *k != left_out);
-        let others = Futures::new(others.map(|(_, path)| (path.clone(), 1.0)).collect());
-        error(&others.median(), &likely[left_out])
-    }))?;
-    let errors = [error(&inferred.median(), &truth)?, error(&told.median(), &truth)?, one, own];
+    let own = of_own_future(&Futures::new(likely.iter().map(|path| (path.clone(), 1.0)).collect()))?;
+    let expected = of_own_future(&inferred)?;
+    let errors = [error(&inferred.median(), &truth)?, error(&told.median(), &truth)?, one, own, expected];
     Ok(Some(Found { errors }))
+}
+
+/// The expected error of the forecast of one of these futures by the others.
+fn of_own_future(futures: &Futures) -> Result<[f64; 2], MethodError> {
+    let mut sum = [0.0; 2];
+    let mut total = 0.0;
+    for (left_out, (path, weight)) in futures.paths.iter().enumerate() {
+        let others = futures.paths.iter().enumerate().filter(|(k, _)| *k != left_out);
+        let others = Futures::new(others.map(|(_, other)| other.clone()).collect());
+        let errors = error(&others.median(), path)?;
+        sum = [0, 1].map(|k| sum[k] + weight * errors[k]);
+        total += weight;
+    }
+    Ok(sum.map(|sum| sum / total))
 }
 
 /// ADE and FDE of the agents.
@@ -158,8 +174,8 @@ mod tests {
     #[test]
     fn the_parts_add_up() {
         let found = [
-            [[3.0, 5.0], [2.0, 4.0], [2.5, 4.5], [0.5, 1.5]],
-            [[1.0, 1.0], [1.0, 2.0], [1.5, 2.5], [0.5, 0.5]],
+            [[3.0, 5.0], [2.0, 4.0], [2.5, 4.5], [0.5, 1.5], [2.0, 3.0]],
+            [[1.0, 1.0], [1.0, 2.0], [1.5, 2.5], [0.5, 0.5], [2.0, 2.0]],
         ];
         let text = table(&found, 1);
         let value = |name: &str, column: usize| -> f64 {

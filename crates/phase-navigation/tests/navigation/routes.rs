@@ -1,7 +1,10 @@
 //! Routes through doors compared with lengths computed by hand.
 
-use phase_model::{Layout, SlotId, Vec2};
-use phase_navigation::{IMPASSABLE_COST, Map, Route};
+use phase_model::{
+    Layout, SlotId, Vec2, arena,
+    layout::{DOOR_CLEARANCE, room_of},
+};
+use phase_navigation::{Crossing, Gaps, IMPASSABLE_COST, Map, Route};
 use proptest::prelude::*;
 
 /// Layout 4: full wall between rooms 0 and 1, a narrow door (x 6 to 8.5) between 0 and 3, the rest open.
@@ -108,6 +111,34 @@ fn a_gap_that_rounding_turns_upside_down_is_no_panic() {
     }
 }
 
+/// The cost of a way through the best of nine points of each door, between which the middle of the body may be
+/// (u).
+fn cost_through_points_of_doors(
+    way: &[Crossing],
+    (from, to): (Vec2, Vec2),
+    width: f32,
+    gaps: &Gaps,
+    impassable: f32,
+) -> f32 {
+    let mut costs = vec![(from, 0.0)];
+    for door in way {
+        let opening = &door.opening;
+        let outwards = (opening.b - opening.a).normalize();
+        let whole = (opening.a.distance(arena::CENTRE), opening.b.distance(arena::CENTRE));
+        let (low, high) = gaps.0[door.slot].unwrap_or(whole);
+        let margin = (0.5 * width + DOOR_CLEARANCE).min(0.5 * (high - low));
+        let price = if gaps.width(door.slot) < width { impassable } else { 0.0 };
+        let point = |k: u8| {
+            let along = low + margin + (high - low - 2.0 * margin) * f32::from(k) / 8.0;
+            let point = arena::CENTRE + outwards * along;
+            let before = costs.iter().map(|&(last, cost)| cost + point.distance(last));
+            (point, price + before.fold(f32::INFINITY, f32::min))
+        };
+        costs = (0..9).map(point).collect();
+    }
+    costs.iter().map(|&(last, cost)| cost + last.distance(to)).fold(f32::INFINITY, f32::min)
+}
+
 fn point() -> impl Strategy<Value = Vec2> {
     (6.5..25.5_f32, 2.5..21.5_f32).prop_map(|(x, y)| Vec2::new(x, y))
 }
@@ -123,6 +154,23 @@ proptest! {
         let back = route(&map, to, from, 2.4);
         prop_assert!(there.length >= from.distance(to) - 1e-3);
         prop_assert!((there.length - back.length).abs() < 0.3, "{} {}", there.length, back.length);
+    }
+
+    #[test]
+    fn no_other_way_through_doors_is_cheaper(
+        index in 0..90_usize,
+        (from, to, body) in (point(), point(), point()),
+        width in 1.0..4.0_f32,
+        impassable in 0.0..100.0_f32,
+    ) {
+        let map = Map::new(Layout::all_used().nth(index).expect("90 layouts"));
+        let mut gaps = *map.gaps();
+        gaps.obstruct(body, 1.0, 2.0);
+        let route = map.route(from, to, width, &gaps, impassable).expect("the points are connected");
+        for way in map.ways(room_of(from), room_of(to)) {
+            let cost = cost_through_points_of_doors(way, (from, to), width, &gaps, impassable);
+            prop_assert!(route.cost <= cost + 0.1, "{} {cost} {way:?}", route.cost);
+        }
     }
 
     #[test]
