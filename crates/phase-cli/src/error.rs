@@ -114,6 +114,7 @@ impl Failure for CliError {
     fn exit_code(&self) -> u8 {
         match self {
             Self::Run(error) => error.exit_code(),
+            Self::Output(error) if error.is_full() => 1,
             Self::File(_)
             | Self::Output(_)
             | Self::NotWhole { .. }

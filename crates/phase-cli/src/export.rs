@@ -4,7 +4,10 @@ use crate::{context::Context, error::CliError, interrupt, output::Output};
 use clap::{Args, value_parser};
 use phase_files::told;
 use phase_model::setting::EVENTS;
-use phase_runs::export::{Exported, export};
+use phase_runs::{
+    export::{Exported, export},
+    words,
+};
 use serde_json::json;
 use std::path::PathBuf;
 
@@ -40,7 +43,8 @@ pub fn run(arguments: &Export, context: &Context) -> Result<(), CliError> {
     let exported = export(&arguments.folder, out, arguments.events_per_file as usize, context)?;
     let Exported { files, is_new } = exported;
     let text = if is_new {
-        format!("{} tar files in {}", files.len(), out.display())
+        let files = words::counted(files.len(), "tar file", "tar files");
+        format!("{files} in {}", out.display())
     } else {
         format!("{} holds this export already", out.display())
     };

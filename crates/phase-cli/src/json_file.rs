@@ -48,7 +48,7 @@ impl JsonFile {
     }
 }
 
-/// Checks that an option can write to a file without overwriting one of the inputs.
+/// Checks that an option can write to a file that is neither one of the inputs nor in one of their folders.
 ///
 /// # Errors
 /// [`CliError::Usage`].
@@ -58,16 +58,18 @@ pub fn check<'a>(
     inputs: impl IntoIterator<Item = &'a PathBuf>,
 ) -> Result<(), CliError> {
     let folder = out.parent().filter(|folder| !folder.as_os_str().is_empty());
+    let place = out.canonicalize().or_else(|_| folder.unwrap_or(Path::new(".")).canonicalize());
+    // A folder of inputs holds what its manifest says, and nothing else.
     let same = |input: &PathBuf| {
-        out == input
-            || out.canonicalize().is_ok_and(|out| input.canonicalize().is_ok_and(|input| out == input))
+        let within = |input: PathBuf| place.as_ref().is_ok_and(|place| place.starts_with(input));
+        out == input || input.canonicalize().is_ok_and(within)
     };
     let rule = if out.is_dir() {
         "is a folder; a file is needed"
     } else if folder.is_some_and(|folder| !folder.is_dir()) {
         "cannot be written, for its folder does not exist"
     } else if inputs.into_iter().any(same) {
-        "is an input file; choose another"
+        "is an input file or in an input folder; choose another"
     } else {
         return Ok(());
     };

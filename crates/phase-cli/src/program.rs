@@ -4,7 +4,7 @@ use crate::{
     console::{Unprinted, print_message},
     context::{Context, Program, Verbosity},
 };
-use clap::{CommandFactory, FromArgMatches, Parser, Subcommand, error::ErrorKind};
+use clap::{Command, CommandFactory, FromArgMatches, Parser, Subcommand, error::ErrorKind};
 use phase_model::foreign;
 use std::{error::Error, ffi::OsString, process::ExitCode};
 
@@ -62,7 +62,8 @@ pub fn run_with<I: Interface>(
     program: Program,
     arguments: impl IntoIterator<Item = OsString>,
 ) -> Result<(), Failed> {
-    let command = CommandLine::<I>::command().name(program.name).bin_name(program.name);
+    let command = with_negative_numbers(CommandLine::<I>::command());
+    let command = command.name(program.name).bin_name(program.name);
     let parsed = command.try_get_matches_from(arguments);
     match parsed.and_then(|matches| CommandLine::<I>::from_arg_matches(&matches)) {
         Ok(CommandLine { command, verbosity }) => {
@@ -95,6 +96,16 @@ pub fn main_with<I: Interface>(program: Program, arguments: impl IntoIterator<It
     print_message(format!("{prefix}{}", failed.sentence));
     failed.causes.iter().for_each(|cause| print_message(format!("  caused by: {cause}")));
     ExitCode::from(failed.exit_code)
+}
+
+/// The command, whose options take a negative number as a value, not as an option of that name: one below a
+/// range is refused as one above it.
+fn with_negative_numbers(command: Command) -> Command {
+    let command = command.mut_args(|argument| {
+        let takes = !argument.is_positional() && argument.get_action().takes_values();
+        if takes { argument.allow_negative_numbers(true) } else { argument }
+    });
+    command.mut_subcommands(with_negative_numbers)
 }
 
 /// The chain of causes of an error, nearest first.

@@ -54,7 +54,7 @@ pub struct Questions {
     #[arg(long, value_name = "N", default_value_t = 480, value_parser = value_parser!(u32).range(64..=2000))]
     pub size: u32,
     /// Write no videos
-    #[arg(long)]
+    #[arg(long, conflicts_with = "size")]
     pub no_video: bool,
     /// Random seed of words and orders
     #[arg(long, value_name = "S", default_value_t = 1)]

@@ -30,13 +30,14 @@ pub struct Render {
     #[arg(long, conflicts_with = "belief")]
     pub observer: bool,
     /// Random seed of the observer
-    #[arg(long, value_name = "S", default_value_t = 1, requires = "observer")]
+    #[arg(long, value_name = "S", default_value_t = 1, requires = "observer", conflicts_with = "belief")]
     pub seed: u64,
     /// Look of the pictures; contact sheets have their own size.
     #[command(flatten)]
     pub look: LookOptions,
     /// Instead of a video, one picture of N frames, 1 to 100, evenly spaced over the event
-    #[arg(long, value_name = "N", value_parser = value_parser!(u16).range(1..=100))]
+    #[arg(long, value_name = "N", value_parser = value_parser!(u16).range(1..=100),
+        conflicts_with_all = ["size", "frame_rate"])]
     pub contact_sheet: Option<u16>,
     /// Form in which the result is printed.
     #[command(flatten)]

@@ -1,6 +1,6 @@
 //! `splits`: makes or checks the split of a dataset.
 
-use crate::{context::Context, error::CliError, output::Output};
+use crate::{context::Context, error::CliError, json_file, output::Output};
 use clap::Args;
 use phase_dataset::{
     split_list::SplitList,
@@ -24,7 +24,7 @@ pub struct Splits {
     #[arg(long, value_name = "FILE")]
     pub make: Option<PathBuf>,
     /// Random seed of the choices that the rules leave open, with --make
-    #[arg(long, value_name = "S", default_value_t = 1)]
+    #[arg(long, value_name = "S", default_value_t = 1, requires = "make", conflicts_with = "splits")]
     pub seed: u64,
     /// Form in which the result is printed.
     #[command(flatten)]
@@ -36,6 +36,9 @@ pub struct Splits {
 /// # Errors
 /// Any [`CliError`]; [`CliError::RulesBroken`] if the split breaks a rule.
 pub fn run(arguments: &Splits, context: &Context) -> Result<(), CliError> {
+    if let Some(file) = &arguments.make {
+        json_file::check("--make", file, [&arguments.events])?;
+    }
     let (items, own) = items_and_splits(&arguments.events, context)?;
     let parts = match (&arguments.make, &arguments.splits) {
         (Some(file), _) => {

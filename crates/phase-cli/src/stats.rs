@@ -3,7 +3,7 @@
 use crate::{context::Context, error::CliError, output::Output, parallel::Jobs};
 use clap::Args;
 use phase_runs::{figures::EventFigures, motion::Answers};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Options of `stats`.
 #[derive(Args, Debug)]
@@ -31,7 +31,8 @@ pub struct Stats {
 /// # Errors
 /// If the events cannot be used or the plots cannot be written.
 pub fn run(arguments: &Stats, context: &Context) -> Result<(), CliError> {
-    let answers = arguments.results.as_deref().map(Answers::read).transpose()?;
+    let read = |results: &Path| Answers::read(results, &arguments.events);
+    let answers = arguments.results.as_deref().map(read).transpose()?;
     let mut figures = EventFigures::of(&arguments.events, arguments.jobs.given(), context)?;
     if let Some(answers) = answers {
         figures = figures.with_answers(answers)?;

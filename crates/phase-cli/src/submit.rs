@@ -1,7 +1,7 @@
 //! `submit`: checks and scores the answers of a method, and writes the files of a pull request for the
 //! leaderboard.
 
-use crate::{context::Context, error::CliError, interrupt, output::Output};
+use crate::{address, context::Context, error::CliError, interrupt, output::Output};
 use clap::Args;
 use phase_report::evaluation::Measures;
 use phase_runs::leaderboard::{Sealed, Submission, Submitted};
@@ -28,8 +28,8 @@ pub struct Submit {
     /// The authors
     #[arg(long, value_name = "NAMES")]
     pub by: String,
-    /// Address of the code, or of a description of the method
-    #[arg(long, value_name = "ADDRESS")]
+    /// Address of the code, or of a description of the method, https:// or http://
+    #[arg(long, value_name = "ADDRESS", value_parser = address::page)]
     pub source: String,
     /// Checkout of PHASE, or another folder, to write the files of the pull request into
     #[arg(long, value_name = "DIR", default_value = "out/submission")]

@@ -1,6 +1,8 @@
 //! `track`: motion of bodies in videos, pictures or tables.
 
-use crate::{context::Context, error::CliError, interrupt, named::named, output::Output, parallel::Jobs};
+use crate::{
+    context::Context, error::CliError, interrupt, json_file, named::named, output::Output, parallel::Jobs,
+};
 use clap::{Args, value_parser};
 use phase_event::observed_to_json;
 use phase_files::{atomic, told};
@@ -55,8 +57,8 @@ pub struct TrackOptions {
 #[derive(Args, Debug)]
 #[command(next_help_heading = "Tables")]
 pub struct TableArguments {
-    /// Columns of time, body, x, y and, if there is one, angle (rad), with commas between; in JSON `a.b` is
-    /// member b of member a
+    /// Columns of time, body, x, y and, if there is one, angle (rad), with commas between; a column that is
+    /// named must be there. In JSON `a.b` is member b of member a
     #[arg(long, value_name = "NAMES", default_value = "time,body,x,y,angle", value_parser = columns)]
     pub columns: [String; 5],
     /// Units of the column of time in a second, above 0, such as 25 where it counts frames
@@ -145,8 +147,12 @@ fn layout(text: &str) -> Result<Layout, String> {
 /// # Errors
 /// Any [`CliError`].
 pub fn run(arguments: &TrackOptions, context: &Context) -> Result<(), CliError> {
-    interrupt::listen();
     arguments.check()?;
+    json_file::check("--out", &arguments.out, &arguments.inputs)?;
+    if let Some(shapes) = &arguments.shapes {
+        json_file::check("--shapes", shapes, arguments.inputs.iter().chain([&arguments.out]))?;
+    }
+    interrupt::listen();
     let inputs = arguments.inputs.len();
     let runs: Vec<TrackRun> = arguments.inputs.iter().map(|input| arguments.run_of(input)).collect();
     let progress = context.progress("Tracking", inputs, 1);

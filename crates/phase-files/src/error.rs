@@ -99,6 +99,12 @@ impl WriteError {
     pub fn json(path: &Path, error: serde_json::Error) -> Self {
         Self { path: path.to_owned(), action: "encode the file as JSON", source: error.into() }
     }
+
+    /// Whether the disk is full or its quota exceeded: no fault of whoever chose the place.
+    #[must_use]
+    pub fn is_full(&self) -> bool {
+        matches!(self.source.kind(), io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded)
+    }
 }
 
 /// A path for a message. Others may have named what is there, in any bytes.

@@ -57,11 +57,12 @@ pub(crate) fn draw(painter: &mut Painter, style: &Style, font: &SizedFont) {
             left: style.margin + k % COLUMNS * (style.text_width() / COLUMNS),
             top: style.legend_top() + k / COLUMNS * line + 1,
             width: 5 * line / 4,
-            height: line - 4,
+            height: line.saturating_sub(4),
         };
         draw_sample(painter, style, mark, &sample);
         let left = sample.left + sample.width + style.text_size() / 2;
-        let room = style.text_width() / COLUMNS - (left - sample.left);
+        // Small pictures have room for the samples alone.
+        let room = (style.text_width() / COLUMNS).saturating_sub(left - sample.left);
         let place = (left as f32, font.baseline(sample.top, sample.height));
         font.draw(&mut painter.pixmap, &font.clip(label, room as f32), place, Align::Left, style.palette.ink);
     }

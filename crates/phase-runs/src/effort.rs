@@ -87,7 +87,7 @@ impl Effort {
     ///
     /// # Errors
     /// [`RunError::Usage`], if other minds were requested, minds of this kind do not have a parameter that
-    /// was given, or it is out of its range.
+    /// was given or make no use of it, or it is out of its range.
     pub fn settings_with(&self, mut minds: MindParameters) -> Result<SimulationSettings, RunError> {
         if let Some(kind) = self.minds.kind.filter(|kind| *kind != minds.kind()) {
             let asked = kind.name();
@@ -113,6 +113,10 @@ impl Effort {
                     return Err(RunError::Usage(format!("--prior {}: {rule}", prior.name())));
                 }
             };
+        }
+        if self.minds.simulations.is_some() && minds.asks_network() {
+            let rule = "minds with --prior network-alone do not search";
+            return Err(RunError::Usage(format!("--simulations: {rule}")));
         }
         if let Some(particles) = self.particles {
             minds = minds.with_particles(particles as usize);

@@ -3,7 +3,9 @@
 //! A sample is an event: `<id>.mp4`, `<id>.json` with its labels, the entry of the manifest, and
 //! `<id>.phase-events`, its file of the format `phase-events/1`.
 
-use crate::{error::RunError, interrupt, listener::Listener, resume::is_finished, words};
+use crate::{
+    error::RunError, interrupt, laboratory::unusable, listener::Listener, resume::is_finished, words,
+};
 use phase_dataset::{
     manifest::{EventEntry, MANIFEST_FILE, Manifest},
     splits::Split,
@@ -16,8 +18,9 @@ use phase_files::{
     regular,
     run::Run,
 };
-use phase_model::MAX_OBJECTS;
+use phase_model::{MAX_OBJECTS, json::read_as};
 use phase_sampler::Variant;
+use serde::Deserialize;
 use serde_json::{Value, json};
 use std::path::Path;
 use tar::{Builder, Header};
@@ -36,6 +39,18 @@ pub struct Exported {
     pub files: Vec<Value>,
     /// Whether it was made now.
     pub is_new: bool,
+}
+
+/// The list of all tar files; its other members are read elsewhere.
+#[derive(Deserialize)]
+struct Index {
+    files: Vec<Listed>,
+}
+
+/// A tar file as the list has it; its other members are not read.
+#[derive(Deserialize)]
+struct Listed {
+    file: FileEntry,
 }
 
 /// Exports the finished dataset in a folder into another, which is new, empty, or of the same export: this
@@ -65,37 +80,63 @@ pub fn export(
         ("events_per_file", events_per_file.into()),
     ]);
     if is_finished(out, INDEX_FILE, &run, listener)? {
-        let index: Value = phase_files::json::read(&out.join(INDEX_FILE))?;
-        run.check(out, "a finished", &index["run"])?;
-        folder::remove_leftovers(out, &run)?;
-        let files = index["files"].as_array().cloned().unwrap_or_default();
-        return Ok(Exported { files, is_new: false });
+        return finished(out, &run, &tar_files(&manifest, events_per_file));
     }
     let folder = Folder::claim(out, &run)?;
     let progress = listener
         .progress_over(&format!("exporting {}", words::events(manifest.events.len())), manifest.events.len());
     let mut files = Vec::new();
-    for split in Split::ALL {
-        let events: Vec<&EventEntry> =
-            manifest.events.iter().filter(|entry| entry.split() == split).collect();
-        for (k, events) in events.chunks(events_per_file).enumerate() {
-            let name = format!("{}-{k:05}.tar", split.name());
-            let entry = match out.join(&name).exists() {
-                true => FileEntry::of(out, name).map_err(RunError::ReadBack)?,
-                false => write(from, out, &name, events)?,
-            };
-            if interrupt::requested() {
-                return Err(RunError::Interrupted(out.to_owned()));
-            }
-            progress.steps(events.len());
-            files.push(json!({ "file": entry, "split": split, "events": events.len() }));
+    for (name, split, events) in tar_files(&manifest, events_per_file) {
+        let entry = match out.join(&name).exists() {
+            true => FileEntry::of(out, name).map_err(RunError::ReadBack)?,
+            false => write(from, out, &name, &events)?,
+        };
+        if interrupt::requested() {
+            return Err(RunError::Interrupted(out.to_owned()));
         }
+        progress.steps(events.len());
+        files.push(json!({ "file": entry, "split": split, "events": events.len() }));
     }
     drop(progress);
     let index = json!({ "format": INDEX_FORMAT, "run": run, "files": files });
     atomic::write_json(&out.join(INDEX_FILE), &index)?;
     folder.finish()?;
     Ok(Exported { files, is_new: true })
+}
+
+/// The names of all tar files of a dataset, with the split and the events of each.
+fn tar_files(manifest: &Manifest, events_per_file: usize) -> Vec<(String, Split, Vec<&EventEntry>)> {
+    let mut files = Vec::new();
+    for split in Split::ALL {
+        let events: Vec<&EventEntry> =
+            manifest.events.iter().filter(|entry| entry.split() == split).collect();
+        for (k, events) in events.chunks(events_per_file).enumerate() {
+            files.push((format!("{}-{k:05}.tar", split.name()), split, events.to_vec()));
+        }
+    }
+    files
+}
+
+/// A finished export is used unchanged if it is that of a run, and its files are those that it lists.
+fn finished(
+    out: &Path,
+    run: &Run,
+    expected: &[(String, Split, Vec<&EventEntry>)],
+) -> Result<Exported, RunError> {
+    let file = out.join(INDEX_FILE);
+    let index: Value = phase_files::json::read(&file)?;
+    run.check(out, "a finished", &index["run"])?;
+    let altered = |rule: &str| unusable(&file, &format!("{rule}; remove the folder or choose another"));
+    let listed: Index = read_as(index.clone()).map_err(|error| altered(&error.to_string()))?;
+    let listed = listed.files;
+    let names = listed.iter().map(|it| it.file.path.as_str());
+    if !names.eq(expected.iter().map(|(name, _, _)| name.as_str())) {
+        return Err(altered("field `files` does not have the tar files of this dataset, in order"));
+    }
+    listed.iter().try_for_each(|it| it.file.verify(out)).map_err(RunError::Altered)?;
+    folder::remove_leftovers(out, run)?;
+    let files = index["files"].as_array().cloned().unwrap_or_default();
+    Ok(Exported { files, is_new: false })
 }
 
 /// Writes one tar file.

@@ -2,12 +2,16 @@
 
 use crate::{
     error::RunError,
+    eval::{Evaluation, input::Input},
     listener::{Listener, Silent},
     parallel::{self, make_all},
     source::EventInput,
     words,
 };
-use phase_dataset::manifest::{MANIFEST_FILE, Manifest};
+use phase_dataset::{
+    manifest::{MANIFEST_FILE, Manifest},
+    splits::Split,
+};
 use phase_eval::{goals::RecognisedEvent, results::GOALS_FORMAT};
 use phase_evidence::{Clarity, Manner, Track, VideoMotion};
 use phase_files::{FileError, Problem, json::bytes};
@@ -83,25 +87,33 @@ struct Judged {
 }
 
 impl Answers {
-    /// Reads the results of `eval goals`.
+    /// Reads the results of `eval goals` for the events of a file or folder, or for some of them: a split,
+    /// or the first ones.
     ///
     /// # Errors
-    /// A file that cannot be read, or that has other results.
-    pub fn read(file: &Path) -> Result<Self, RunError> {
+    /// A file that cannot be read, or that has other results or those of other events; events that cannot
+    /// be used.
+    pub fn read(file: &Path, events: &Path) -> Result<Self, RunError> {
         let fail = |problem: Problem| RunError::File(FileError { file: file.to_owned(), problem });
         let mut value = phase_model::json::parse(&bytes(file)?).map_err(|error| fail(error.into()))?;
         if value["format"] != GOALS_FORMAT {
             let rule = format!("field format must be {GOALS_FORMAT:?}");
             return Err(fail(Problem::Shape { what: RESULTS, rule }));
         }
-        let events = value.get_mut("events").map(Value::take).unwrap_or_default();
-        let events: Vec<RecognisedEvent> = phase_model::json::read_as(events)
+        let answered = value.get_mut("events").map(Value::take).unwrap_or_default();
+        let answered: Vec<RecognisedEvent> = phase_model::json::read_as(answered)
             .map_err(|source| fail(Problem::Incomplete { what: RESULTS, source }))?;
+        let digest = value["run"]["events_sha256"].as_str().unwrap_or_default();
+        if !is_digest_of(digest, answered.len(), events)? {
+            let events = events.display();
+            let rule = format!("field `run.events_sha256` is not that of the events of {events}");
+            return Err(fail(Problem::Shape { what: RESULTS, rule }));
+        }
         let judged = |event: RecognisedEvent| {
             let right = AgentId::ALL.map(|it| event.answer.place(it, event.label.goals[it]) == Some(0));
             (event.id, Judged { reported: event.answer.reported, right })
         };
-        Ok(Self { file: file.to_owned(), judged: events.into_iter().map(judged).collect() })
+        Ok(Self { file: file.to_owned(), judged: answered.into_iter().map(judged).collect() })
     }
 
     /// The cells of some events: the mean probability that people report the label, how often that is the
@@ -125,6 +137,22 @@ impl Answers {
         };
         format!(" {mean} | {likeliest} of {} | {} | {} |", reports.len(), goals(true), goals(false))
     }
+}
+
+/// Whether a digest is that of the events of a file or folder as an evaluation opens them: all, or a split,
+/// or so many of the first of either.
+fn is_digest_of(digest: &str, count: usize, events: &Path) -> Result<bool, RunError> {
+    let found = |split| {
+        // Warnings about events are printed by their next reader.
+        let evaluation = Evaluation { split, limit: Some(count), ..Evaluation::new(events) };
+        Input::open(&evaluation, &Silent).map(|input| input.sha256)
+    };
+    if found(None)? == digest {
+        return Ok(true);
+    }
+    // A split without events cannot be opened, and nothing was evaluated on it.
+    let is_of = |split| found(Some(split)).is_ok_and(|sha256| sha256 == digest);
+    Ok(events.join(MANIFEST_FILE).is_file() && Split::ALL.into_iter().any(is_of))
 }
 
 /// An event and its motion.

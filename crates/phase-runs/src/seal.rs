@@ -7,15 +7,18 @@
 
 use crate::{
     error::RunError,
+    laboratory::clips::source_digest,
     laboratory::unusable,
     listener::Listener,
-    questions::{QUESTIONS_FILE, questions},
+    questions::{INDEX_FILE, QUESTIONS_FILE, questions},
     source::EventInput,
 };
 use phase_dataset::manifest::{MANIFEST_FILE, Manifest};
 use phase_event::{FILE_FORMAT, Recording};
 use phase_files::{
+    FileError, Problem,
     checksum::{FileEntry, sha256_hex},
+    incidental::is_incidental_below,
     new_folder::NewFolder,
     regular,
 };
@@ -25,6 +28,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 use std::{
     collections::{BTreeMap, BTreeSet},
+    fs,
     path::{Path, PathBuf},
 };
 
@@ -107,6 +111,7 @@ pub fn unseal(
     for file in &sealed.files {
         file.verify(published).map_err(RunError::Altered)?;
     }
+    check_extra(published, "", &sealed)?;
     let (found, contents) = contents(dataset, benchmark, listener)?;
     let differs = |what: &str| Err(unusable(&file, &format!("{what} is not what was sealed")));
     if found.manifest_sha256 != sealed.manifest_sha256 {
@@ -119,8 +124,14 @@ pub fn unseal(
             _ => Err(unusable(&file, "no questions were sealed")),
         };
     }
-    let names: BTreeSet<&str> = sealed.files.iter().map(|file| file.path.as_str()).collect();
-    if names != contents.keys().map(String::as_str).collect() {
+    if found.events != sealed.events {
+        let (events, dataset) = (found.events, dataset.display());
+        let rule = format!("field `events` must be {events}, as in {dataset}, not {}", sealed.events);
+        return Err(unusable(&file, &rule));
+    }
+    let mut names: Vec<&str> = sealed.files.iter().map(|file| file.path.as_str()).collect();
+    names.sort_unstable();
+    if !names.into_iter().eq(contents.keys().map(String::as_str)) {
         return differs("the list of files");
     }
     for (path, content) in &contents {
@@ -137,6 +148,32 @@ pub fn unseal(
     let secret = secret_of(&manifest, &found.manifest_sha256);
     let names = names_of(ids, &secret, &found.manifest_sha256);
     Ok(names.into_iter().map(|(id, name)| (name, id.to_owned())).collect())
+}
+
+/// Checks that a published folder holds nothing but the seal, the files that it lists, and what systems and
+/// tools leave in folders. `below` is the folder to look into, relative to the published one: a path that
+/// ends with `/`, or an empty one.
+fn check_extra(published: &Path, below: &str, sealed: &Seal) -> Result<(), RunError> {
+    let folder = published.join(below);
+    let unreadable = |error| FileError { file: folder.clone(), problem: Problem::Unreadable(error) };
+    for entry in fs::read_dir(&folder).map_err(unreadable)? {
+        let entry = entry.map_err(unreadable)?;
+        let path = format!("{below}{}", entry.file_name().to_string_lossy());
+        let is_folder = entry.file_type().map_err(unreadable)?.is_dir();
+        if path == SEAL_FILE
+            || is_incidental_below(&path, is_folder)
+            || sealed.files.iter().any(|file| file.path.as_str() == path)
+        {
+            continue;
+        }
+        if is_folder {
+            check_extra(published, &format!("{path}/"), sealed)?;
+        } else {
+            let rule = format!("is none of the `files` of {SEAL_FILE}, and was not sealed");
+            return Err(unusable(&entry.path(), &rule));
+        }
+    }
+    Ok(())
 }
 
 /// Secret that decides names and their order. The digest of the manifest is published; this cannot be made
@@ -208,6 +245,11 @@ fn contents(
         if let Some(question) = all.iter().find(|it| it.events.iter().any(|id| !known.contains(id.as_str())))
         {
             return Err(unusable(&file, &format!("question {} is not about the dataset", question.id)));
+        }
+        // Events of other datasets may have the same ids.
+        let index = folder.join(INDEX_FILE);
+        if phase_files::json::read(&index)?["run"]["events"] != json!([source_digest(&source)?]) {
+            return Err(unusable(&index, &format!("is not about the events of {}", dataset.display())));
         }
         questions_sha256 = Some(sha256_hex(&regular::bytes(&file)?));
         let secret = format!("{secret} questions");

@@ -50,7 +50,10 @@ pub fn section(audit: Option<&Audit>, events: usize) -> String {
             };
             format!("\n{}{some}.\n\n{}", capital(&phase_audit::summary(audit)), phase_audit::table(audit))
         }
-        None => format!("\nNo shortcut audit: {} are too few.\n", words::events(events)),
+        None => {
+            let are = if events == 1 { "is" } else { "are" };
+            format!("\nNo shortcut audit: {} {are} too few.\n", words::events(events))
+        }
     }
 }
 

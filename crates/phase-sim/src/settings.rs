@@ -3,7 +3,7 @@
 use phase_minds::{MindParameters, Recorder};
 use phase_model::{
     AgentId,
-    json::FieldError,
+    json::{FieldError, read_as},
     setting::{EVENT_STEPS, RangeError, Setting},
 };
 use serde::{Deserialize, Serialize, de::IgnoredAny};
@@ -167,7 +167,7 @@ impl SimulationSettings {
             field: field.into(),
             rule: format!("must be the settings of a simulation: {error}"),
         };
-        let settings = Unchecked::deserialize(value).map_err(unreadable)?.settings();
+        let settings = read_as::<Unchecked>(value.clone()).map_err(unreadable)?.settings();
         settings.validate().map_err(|error| error.at(field))?;
         Ok(settings)
     }

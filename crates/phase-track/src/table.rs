@@ -25,8 +25,9 @@ const HEADING_DEVIATION: f32 = 0.5;
 /// Meaning of a table that has one line for each body and time.
 #[derive(Clone, PartialEq, Debug)]
 pub struct TableOptions {
-    /// Names of the columns of time, body, x, y and, if there is one, angle (rad). In JSON a dot leads into
-    /// an object, as in `track.x`.
+    /// Names of the columns of time, body, x, y and angle (rad), the last empty where there is none; of the
+    /// default columns it may be missing in the table, too. In JSON a dot leads into an object, as in
+    /// `track.x`.
     pub columns: [String; 5],
     /// Units of time a second, such as 25 for a column of frame numbers.
     pub rate: f64,
@@ -59,6 +60,13 @@ impl Default for TableOptions {
     }
 }
 
+impl TableOptions {
+    /// Whether the table has to have a column of angles: where one is named, and not by default.
+    fn needs_angles(&self) -> bool {
+        !self.columns[4].is_empty() && self.columns != Self::default().columns
+    }
+}
+
 /// One line: time, place and angle.
 pub(crate) type Line = (f64, [f64; 2], Option<f64>);
 
@@ -74,6 +82,7 @@ pub fn table(
     let mut names: Vec<String> = Vec::new();
     let mut tracks: BTreeMap<String, Vec<Line>> = BTreeMap::new();
     let mut count = 0;
+    let mut has_angles = false;
     each_line(bytes, ending, options, &mut |number, [time, body, x, y, angle]| {
         count += 1;
         if count > MOST_LINES {
@@ -93,6 +102,7 @@ pub fn table(
         let body = needed(1, body)?;
         let seconds = number_in(0, needed(0, time)?)? / options.rate;
         let place = [number_in(2, needed(2, x)?)?, number_in(3, needed(3, y)?)?];
+        has_angles |= angle.is_some();
         let angle = angle.filter(|it| !it.is_empty()).map(|it| number_in(4, it)).transpose()?;
         if !tracks.contains_key(&body) {
             names.push(body.clone());
@@ -100,6 +110,9 @@ pub fn table(
         tracks.entry(body).or_default().push((seconds, place, angle));
         Ok(())
     })?;
+    if options.needs_angles() && !has_angles && count > 0 {
+        return Err(TrackError::Table(format!("has no column {:?} in any line", options.columns[4])));
+    }
     let chosen = if options.bodies.is_empty() {
         names.into_iter().take(MAX_ENTITIES).collect()
     } else {
@@ -199,13 +212,18 @@ fn each_line(
     let mut reader = csv::ReaderBuilder::new().delimiter(delimiter).from_reader(bytes);
     let headers = reader.headers().map_err(|error| TrackError::Table(error.to_string()))?.clone();
     let places_of = |name: &String| (0..headers.len()).filter(|&k| headers[k].trim() == name).collect();
-    let found: [Vec<usize>; 5] = core::array::from_fn(|k| places_of(&options.columns[k]));
+    let mut found: [Vec<usize>; 5] = core::array::from_fn(|k| places_of(&options.columns[k]));
+    if options.columns[4].is_empty() {
+        // The column without a name that some programs write has their numbers of lines.
+        found[4].clear();
+    }
     if let Some(twice) = found.iter().position(|places| places.len() > 1) {
         let name = &options.columns[twice];
         return Err(TrackError::Table(format!("has {} columns {name:?}", found[twice].len())));
     }
     let places = found.map(|places| places.first().copied());
-    if let Some(missing) = places[..4].iter().position(Option::is_none) {
+    let needed = if options.needs_angles() { 5 } else { 4 };
+    if let Some(missing) = places[..needed].iter().position(Option::is_none) {
         let found: Vec<&str> = headers.iter().collect();
         let name = &options.columns[missing];
         return Err(TrackError::Table(format!(

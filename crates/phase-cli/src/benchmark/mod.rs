@@ -2,9 +2,12 @@
 
 pub mod options;
 
-use crate::{context::Context, error::CliError, eval::require_networks, interrupt};
+use crate::{context::Context, error::CliError, eval::require_networks, interrupt, json_file};
 use options::Benchmark;
-use phase_runs::{benchmark::BenchmarkRun, eval::REPORT_FILE};
+use phase_runs::{
+    benchmark::BenchmarkRun,
+    eval::{REPORT_FILE, methods},
+};
 use serde_json::json;
 
 /// Runs the command.
@@ -13,8 +16,18 @@ use serde_json::json;
 /// Any [`CliError`].
 pub fn run(arguments: &Benchmark, context: &Context) -> Result<(), CliError> {
     let run = BenchmarkRun::from(arguments);
+    let methods = &run.methods;
+    let minds = methods.is_empty() || methods.iter().any(|method| methods::has_minds(method));
+    if run.minds.is_some() && !minds {
+        return Err(CliError::Usage("--minds: none of the methods has minds".into()));
+    }
     if run.needs_networks() {
         require_networks(context)?;
+    }
+    if let Some(file) = &run.figures {
+        let alone = run.real.iter().chain(&run.ratings).chain(&run.pairs);
+        let several = run.trained.iter().chain(&run.results).chain(&run.merge);
+        json_file::check("--figures", file, [&run.data].into_iter().chain(alone).chain(several))?;
     }
     interrupt::listen();
     if let Some((benchmark, document)) = run.run(context)? {

@@ -30,7 +30,7 @@ pub fn run(arguments: &Eval, context: &Context) -> Result<(), CliError> {
         require_networks(context)?;
     }
     let common = arguments.common();
-    common.json.check(arguments.compare())?;
+    common.json.check(arguments.inputs())?;
     // Before the work.
     let others = arguments.compare().iter().map(|file| Ok((file.as_path(), json::read(file)?)));
     let others: Others<'_> = others.collect::<Result<_, CliError>>()?;

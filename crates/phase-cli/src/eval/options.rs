@@ -106,7 +106,12 @@ pub struct Others {
     pub weights: Option<PathBuf>,
     /// Score the answers in this file instead of asking a method (`events` as in results.json; see
     /// docs/reference/formats/evaluation.md)
-    #[arg(long, value_name = "FILE", conflicts_with = "method")]
+    #[arg(
+        long,
+        value_name = "FILE",
+        conflicts_with_all =
+            ["method", "minds", "one_way_turns", "strongest_coasts", "original_random", "simulations"]
+    )]
     pub predictions: Option<PathBuf>,
     /// Also print the differences from another method, with intervals: its results.json for the same events.
     /// May be given several times
@@ -186,6 +191,21 @@ impl Eval {
             Self::Beliefs(options) => &options.common,
             Self::Intents(options) => &options.common,
         }
+    }
+
+    /// The files and folders that are read.
+    pub(super) fn inputs(&self) -> Vec<&PathBuf> {
+        let (others, more) = match self {
+            Self::Goals(options) => (Some(&options.others), options.ratings.as_ref()),
+            Self::Trajectories(options) => (Some(&options.others), None),
+            Self::Beliefs(options) => (None, options.weights.as_ref()),
+            Self::Intents(_) => (None, None),
+        };
+        let of_others = others
+            .into_iter()
+            .flat_map(|others| others.weights.iter().chain(&others.predictions).chain(&others.compare));
+        let common = self.common();
+        [&common.events].into_iter().chain(&common.parts.merge).chain(more).chain(of_others).collect()
     }
 
     /// The results of other methods to compare with.

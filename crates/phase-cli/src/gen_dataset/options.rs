@@ -32,7 +32,7 @@ pub struct GenDataset {
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
     /// Write no videos and no page, for training data
-    #[arg(long)]
+    #[arg(long, conflicts_with_all = ["palette", "size", "frame_rate"])]
     pub no_video: bool,
     /// Length of every event, 1 to 2500 seconds of video, a multiple of 0.25 [default: the preset's
     /// rule]

@@ -3,8 +3,8 @@
 pub mod sets;
 
 use crate::{
-    context::Context, effort::MindOptions, error::CliError, interrupt, named::named, output::Output,
-    parallel::Jobs,
+    context::Context, effort::MindOptions, error::CliError, interrupt, json_file, named::named,
+    output::Output, parallel::Jobs,
 };
 use clap::{Args, ValueEnum, value_parser};
 use phase_laboratory::clip::{Cut, steps_of};
@@ -126,6 +126,9 @@ pub fn clip(arguments: &ClipOptions, context: &Context) -> Result<(), CliError> 
     let mut forms: Vec<ClipForm> = forms.collect();
     forms.sort_unstable();
     forms.dedup();
+    if forms.contains(&ClipForm::Mp4) && arguments.size % 2 == 1 {
+        return Err(CliError::Usage(format!("--size: must be even for videos, not {}", arguments.size)));
+    }
     interrupt::listen();
     let run = ClipRun {
         events: arguments.events.clone(),
@@ -157,7 +160,7 @@ pub fn clip(arguments: &ClipOptions, context: &Context) -> Result<(), CliError> 
 /// Options of `observe`.
 #[derive(Args, Debug)]
 pub struct ObserveOptions {
-    /// A file in the format phase-events/1, or the folder of a dataset, of simulations or of clips
+    /// A file in the format phase-events/1, or the folder of a dataset or of simulations
     #[arg(value_name = "FILE|DIR")]
     pub events: PathBuf,
     /// Only the event with this id; may be given several times
@@ -262,6 +265,7 @@ pub struct AreaOptions {
 /// # Errors
 /// Any [`CliError`].
 pub fn areas(arguments: &AreaOptions, context: &Context) -> Result<(), CliError> {
+    json_file::check("--out", &arguments.out, [&arguments.events])?;
     interrupt::listen();
     let run = AreaRun {
         events: arguments.events.clone(),

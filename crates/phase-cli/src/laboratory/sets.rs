@@ -1,7 +1,7 @@
 //! Commands on sets of stimuli: `rdm`, `match` and `pack`.
 
 use crate::{
-    context::Context, error::CliError, interrupt, laboratory::within, named::named, output::Output,
+    address, context::Context, error::CliError, interrupt, laboratory::within, named::named, output::Output,
     parallel::Jobs,
 };
 use clap::{Args, ValueEnum, value_parser};
@@ -10,7 +10,10 @@ use phase_laboratory::{
     representation::{Distance, Rank, Similarity},
 };
 use phase_model::EventKind;
-use phase_runs::laboratory::{Correlation, MEASURES, MatrixRun, Pack, Pairing, Source};
+use phase_runs::{
+    laboratory::{Correlation, MEASURES, MatrixRun, Pack, Pairing, Source},
+    words,
+};
 use serde_json::json;
 use std::{fmt::Write as _, path::PathBuf};
 
@@ -93,9 +96,9 @@ pub fn matrices(arguments: &MatrixOptions, context: &Context) -> Result<(), CliE
     };
     let made = run.run(context)?;
     let mut text = format!(
-        "{} matrices of {} stimuli in {}\n\n",
-        made.names.len(),
-        made.stimuli.len(),
+        "{} of {} in {}\n\n",
+        words::counted(made.names.len(), "matrix", "matrices"),
+        words::counted(made.stimuli.len(), "stimulus", "stimuli"),
         arguments.out.display()
     );
     if !made.correlations.is_empty() {
@@ -170,10 +173,9 @@ pub fn pairing(arguments: &PairingOptions, context: &Context) -> Result<(), CliE
     let matched = run.run(context)?;
     let number = |value: Option<f64>| value.map_or_else(|| "–".to_owned(), |value| format!("{value:.3}"));
     let unit = |name: &str| MEASURES.iter().find(|(known, _)| *known == name).map_or("", |(_, unit)| unit);
-    let counted = |count: usize| if count == 1 { "1 group".to_owned() } else { format!("{count} groups") };
     let mut text = format!(
         "{} of one event of each kind in {}\n\n| measure | kind | events | mean before | after | sd before | after |\n|---|---|---|---|---|---|---|\n",
-        counted(matched.groups.len()),
+        words::counted(matched.groups.len(), "group", "groups"),
         arguments.out.display()
     );
     for row in &matched.balance {
@@ -221,8 +223,8 @@ pub struct PackOptions {
     /// Attention checks in every list, 0 to 100
     #[arg(long, value_name = "N", default_value_t = 0, value_parser = value_parser!(u16).range(0..=100))]
     pub checks: u16,
-    /// Address of the folder of videos, for qualtrics and children-helping-science
-    #[arg(long, value_name = "URL")]
+    /// Address of the folder of videos, https:// or http://, for qualtrics and children-helping-science
+    #[arg(long, value_name = "URL", value_parser = address::folder)]
     pub address: Option<String>,
     /// Random seed of the order
     #[arg(long, value_name = "S", default_value_t = 1)]
@@ -257,11 +259,6 @@ pub fn pack(arguments: &PackOptions, context: &Context) -> Result<(), CliError> 
             )));
         }
     };
-    if address.contains(['"', '<', '>', '\n', ' ']) {
-        return Err(CliError::Usage(
-            "--address: must be an address without spaces, quotes and angle brackets".into(),
-        ));
-    }
     let run = Pack {
         from: arguments.from.clone(),
         ids: arguments.id.clone(),
@@ -273,8 +270,9 @@ pub fn pack(arguments: &PackOptions, context: &Context) -> Result<(), CliError> 
         out: arguments.out.clone(),
     };
     let packed = run.run(context)?;
-    let text =
-        format!("{} videos, {} list(s) in {}", packed.videos, packed.trials.len(), arguments.out.display());
+    let videos = words::counted(packed.videos, "video", "videos");
+    let lists = words::counted(packed.trials.len(), "list", "lists");
+    let text = format!("{videos}, {lists} in {}", arguments.out.display());
     arguments
         .output
         .print(text, &json!({ "videos": packed.videos, "trials": packed.trials, "files": packed.files }))

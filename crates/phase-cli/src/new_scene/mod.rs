@@ -40,9 +40,11 @@ pub fn run(arguments: &NewScene, context: &Context) -> Result<(), CliError> {
     let value = json!({
         "file": told(out), "id": kind.name(), "kind": kind, "layout": scene.layout, "seed": arguments.seed,
     });
+    let name = kind.name();
+    let a = if name.starts_with(['a', 'e', 'i', 'o', 'u']) { "an" } else { "a" };
     arguments
         .output
-        .print(format!("{} holds a {} scene; simulate it with\n{next}", out.display(), kind.name()), &value)
+        .print(format!("{} holds {a} {name} scene; simulate it with\n{next}", out.display()), &value)
 }
 
 /// A scene of the kind, in the layout if one is given. The variants of the kind are tried in an order that

@@ -30,7 +30,8 @@ pub fn run(arguments: &Serve, context: &Context) -> Result<(), CliError> {
     use phase_sim::SimulationSettings;
     use std::net::Ipv4Addr;
 
-    let only_studies = !arguments.studies.is_empty() && arguments.scenes.is_none();
+    arguments.check()?;
+    let only_studies = arguments.only_studies();
     let scenes: Vec<Item> = scenes::of(arguments, context)?;
     let practice = scenes::practice()?;
     let given = arguments.wasm.as_deref().map(read_wasm).transpose()?;
@@ -52,12 +53,12 @@ pub fn run(arguments: &Serve, context: &Context) -> Result<(), CliError> {
         host: arguments.host.clone(),
         behind_proxy: arguments.behind_proxy,
         folder: arguments.out.clone(),
-        rooms: usize::from(arguments.rooms),
+        rooms: usize::from(arguments.rooms.unwrap_or(ROOMS)),
         mind_rooms: arguments.mind_rooms.map_or_else(mind_rooms, usize::from),
         open: !arguments.invite_only,
-        rounds: usize::from(arguments.rounds),
+        rounds: usize::from(arguments.rounds.unwrap_or(ROUNDS)),
         game: GameSettings { simulation, ..default },
-        seed: arguments.seed,
+        seed: arguments.seed.unwrap_or(SEED),
     };
     let mut server = Server::bind(settings, practice, scenes, wasm)?;
     server.open_studies(&arguments.studies)?;
@@ -74,6 +75,16 @@ pub fn run(arguments: &Serve, context: &Context) -> Result<(), CliError> {
     ))?;
     Ok(server.run(stopped())?)
 }
+
+/// Games at the same time, unless given.
+#[cfg(feature = "serve")]
+const ROOMS: u16 = 200;
+/// Scenes of a game after the practice, unless given.
+#[cfg(feature = "serve")]
+const ROUNDS: u16 = 5;
+/// The seed, unless given.
+#[cfg(feature = "serve")]
+const SEED: u64 = 1;
 
 /// Games with a mind that a machine of this size plays in time (docs/results/performance.md).
 #[cfg(feature = "serve")]

@@ -1,5 +1,7 @@
 //! Options of `serve`.
 
+#[cfg(feature = "serve")]
+use crate::error::CliError;
 use crate::{effort::SimulationOptions, named::named};
 use clap::{Args, value_parser};
 use phase_dataset::splits::Split;
@@ -38,12 +40,12 @@ pub struct Serve {
         value_parser = named(Split::ALL, Split::name)
     )]
     pub split: Option<Split>,
-    /// Scenes of a game after the practice, 1 to 1000; those that were played least come first
-    #[arg(long, value_name = "N", default_value_t = 5, value_parser = value_parser!(u16).range(1..=1000))]
-    pub rounds: u16,
-    /// Games at the same time, 1 to 10000
-    #[arg(long, value_name = "N", default_value_t = 200, value_parser = value_parser!(u16).range(1..=10_000))]
-    pub rooms: u16,
+    /// Scenes of a game after the practice, 1 to 1000; those that were played least come first [default: 5]
+    #[arg(long, value_name = "N", value_parser = value_parser!(u16).range(1..=1000))]
+    pub rounds: Option<u16>,
+    /// Games at the same time, 1 to 10000 [default: 200]
+    #[arg(long, value_name = "N", value_parser = value_parser!(u16).range(1..=10_000))]
+    pub rooms: Option<u16>,
     /// Of them games in which a mind plays, 0 to 10000 [default: 12 for each core]
     #[arg(long, value_name = "N", value_parser = value_parser!(u16).range(0..=10_000))]
     pub mind_rooms: Option<u16>,
@@ -55,16 +57,55 @@ pub struct Serve {
     #[arg(long)]
     pub inertia: bool,
     /// A rating study (phase-study/1); may be given several times. Its page is /study/NAME/. Raters find
-    /// nothing else on this server, unless --scenes is given too
+    /// nothing else on this server, unless --scenes is given too; without it, options of games are refused
     #[arg(long = "study", value_name = "FILE")]
     pub studies: Vec<PathBuf>,
-    /// Seed of the order of scenes and of the minds that play
-    #[arg(long, value_name = "SEED", default_value_t = 1)]
-    pub seed: u64,
+    /// Seed of the order of scenes and of the minds that play [default: 1]
+    #[arg(long, value_name = "SEED")]
+    pub seed: Option<u64>,
     /// Engine, length of a round and minds.
     #[command(flatten)]
     pub simulation: SimulationOptions,
     /// Folder with phase.js and phase_bg.wasm for the playground, instead of those that this program includes
     #[arg(long, value_name = "DIR")]
     pub wasm: Option<PathBuf>,
+}
+
+#[cfg(feature = "serve")]
+impl Serve {
+    /// Whether raters find studies and nothing else.
+    pub(super) fn only_studies(&self) -> bool {
+        !self.studies.is_empty() && self.scenes.is_none()
+    }
+
+    /// Whether there is something that each option is about: without games, none of theirs.
+    pub(super) fn check(&self) -> Result<(), CliError> {
+        let SimulationOptions { engine, minds, foresight, prior, particles, max_steps } = &self.simulation;
+        let of_games = [
+            ("--rounds", self.rounds.is_some()),
+            ("--rooms", self.rooms.is_some()),
+            ("--mind-rooms", self.mind_rooms.is_some()),
+            ("--invite-only", self.invite_only),
+            ("--inertia", self.inertia),
+            ("--seed", self.seed.is_some()),
+            ("--engine", engine.is_some()),
+            ("--minds", minds.minds.is_some()),
+            ("--one-way-turns", minds.one_way_turns),
+            ("--strongest-coasts", minds.strongest_coasts),
+            ("--original-random", minds.original_random),
+            ("--simulations", minds.simulations.is_some()),
+            ("--foresight", foresight.is_some()),
+            ("--prior", prior.is_some()),
+            ("--particles", particles.is_some()),
+            ("--max-steps", max_steps.is_some()),
+            ("--wasm", self.wasm.is_some()),
+        ];
+        match of_games.iter().find(|(_, given)| *given).filter(|_| self.only_studies()) {
+            Some((option, _)) => {
+                let rule = "is about games and the playground; with --study these need --scenes";
+                Err(CliError::Usage(format!("{option}: {rule}")))
+            }
+            None => Ok(()),
+        }
+    }
 }

@@ -63,10 +63,14 @@ pub(super) fn stimuli(
     context: &Context,
 ) -> Result<(Vec<Stimulus>, Vec<Copy>), CliError> {
     let mut known = BTreeMap::new();
+    let mut unshown: Vec<(&Path, BTreeSet<String>)> = Vec::new();
     for file in &arguments.events {
+        let mut ids = BTreeSet::new();
         for (_, recording) in source::read(file, &[], context)? {
+            ids.insert(recording.id.clone());
             known.insert(recording.id.clone(), recording);
         }
+        unshown.push((file.as_path(), ids));
     }
     let folder = arguments.out.parent().unwrap_or_else(|| Path::new("")).to_owned();
     let mut base = Base { folder, copies: Vec::new() };
@@ -77,7 +81,9 @@ pub(super) fn stimuli(
         let mut stimuli = if folder.join(MANIFEST_FILE).is_file() {
             of_dataset(folder, source, &mut base)?
         } else {
-            of_folder(folder, source, &mut base, &known)?
+            let stimuli = of_folder(folder, source, &mut base, &known)?;
+            unshown.retain(|(_, ids)| !stimuli.iter().any(|stimulus| ids.contains(&stimulus.id)));
+            stimuli
         };
         if stimuli.is_empty() {
             return Err(CliError::Usage(format!("{}: holds no videos", folder.display())));
@@ -86,6 +92,10 @@ pub(super) fn stimuli(
             stimuli = sample(stimuli, count as usize, arguments.seed, k as u64);
         }
         all.extend(stimuli);
+    }
+    if let Some((file, _)) = unshown.first() {
+        let rule = "has no event with the name of an .mp4 file of --videos, so it would have no effect";
+        return Err(CliError::Usage(format!("--events {}: {rule}", file.display())));
     }
     let shown: BTreeSet<PathBuf> = all.iter().map(|stimulus| base.folder.join(&stimulus.video)).collect();
     base.copies.retain(|copy| shown.contains(&copy.to));

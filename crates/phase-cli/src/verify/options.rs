@@ -39,10 +39,11 @@ pub struct CheckOptions {
     #[arg(long, value_name = "N", value_parser = amount)]
     pub resimulate: Option<usize>,
     /// Choice of the events that --resimulate takes: another seed takes others
-    #[arg(long, value_name = "S", default_value_t = 0, value_parser = value_parser!(u64))]
+    #[arg(long, value_name = "S", default_value_t = 0, requires = "resimulate",
+        value_parser = value_parser!(u64))]
     pub resimulate_seed: u64,
     /// File of the preset for --replay, if it is not one that comes with the program
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", requires = "replay")]
     pub preset: Option<PathBuf>,
 }
 

@@ -11,7 +11,15 @@ fn numbers_and_names_out_of_range() {
     let simulate = ["simulate", "--events", "events.json", "--out", "out"];
     let cases: &[(&[&str], &[&str])] = &[
         (&["gen-dataset", "--events", "0"], &["--events", "'0'"]),
-        (&["gen-dataset", "--events", "-3"], &["-3"]),
+        (&["gen-dataset", "--events", "-3"], &["--events", "'-3'"]),
+        (&["gen-dataset", "--no-video", "--size", "64"], &["--no-video", "--size"]),
+        (&["gen-dataset", "--no-video", "--palette", "accessible"], &["--no-video", "--palette"]),
+        (&["gen-dataset", "--no-video", "--frame-rate", "30"], &["--no-video", "--frame-rate"]),
+        (&["gen-dataset", "--prior", "network-alone", "--simulations", "9"], &["--simulations", "search"]),
+        (
+            &["questions", "events.json", "--no-video", "--size", "64", "--out", "q"],
+            &["--no-video", "--size"],
+        ),
         (&["gen-dataset", "--events", "many"], &["--events", "many"]),
         (&["gen-dataset", "--jobs", "0"], &["--jobs", "'0'"]),
         (&["gen-dataset", "--jobs", "99999999"], &["--jobs", "99999999"]),
@@ -36,7 +44,13 @@ fn numbers_and_names_out_of_range() {
         (&["render", "events.json", "--belief", "0"], &["events.json", "some-event-1", "--belief"]),
         (&["render", "events.json", "--belief", "0", "--observer"], &["--belief", "--observer"]),
         (&["render", "events.json", "--seed", "3"], &["--observer"]),
+        (&["render", "events.json", "--belief", "0", "--seed", "3"], &["--belief", "--seed"]),
         (&["render", "events.json", "--contact-sheet", "0"], &["--contact-sheet"]),
+        (
+            &["render", "events.json", "--contact-sheet", "2", "--frame-rate", "30"],
+            &["--contact-sheet", "--frame-rate"],
+        ),
+        (&["render", "events.json", "--contact-sheet", "2", "--size", "64"], &["--contact-sheet", "--size"]),
         (&["render", "events.json", "--id", "other"], &["events.json", "\"other\""]),
         (&["render", "events.json", "--out", "one.mp4"], &["one.mp4", "2 events"]),
         (&["render", "events.json", "--out", "events.json"], &["events.json", "folder"]),
@@ -52,6 +66,24 @@ fn numbers_and_names_out_of_range() {
         (&["completions", "cmd"], &["cmd", "bash"]),
         (&["man"], &["--out"]),
         (&["verify", ".", "--quiet", "--verbose"], &["--quiet", "--verbose"]),
+        (&["verify", ".", "--resimulate-seed", "3"], &["--resimulate"]),
+        (&["verify", ".", "--preset", "own.json"], &["--replay"]),
+        (&["verify", ".", "--resimulate", "1", "--preset", "own.json"], &["--replay"]),
+        (&["splits", ".", "--seed", "3"], &["--make"]),
+        (&["splits", ".", "--splits", "events.json", "--seed", "3"], &["--splits", "--seed"]),
+        (
+            &["pack", ".", "--for", "qualtrics", "--address", "https://example.org/?a", "--out", "pack"],
+            &["--address", "query"],
+        ),
+        (&["pack", ".", "--for", "qualtrics", "--address", "here", "--out", "pack"], &["--address", "https"]),
+        (
+            &["submit", "answers.json", "--events", ".", "--by", "N. N.", "--source", "A"],
+            &["--source", "https"],
+        ),
+        (
+            &["benchmark", "--data", ".", "--methods", "chance,still", "--minds", "published"],
+            &["--minds", "none of the methods"],
+        ),
         (&["dance"], &["dance"]),
     ];
     fs::create_dir(folder.path().join("empty")).expect("a folder");

@@ -153,6 +153,8 @@ fn methods_from_outside_stand_beside_ours() {
         let sentence = refuse(path, &arguments.iter().map(String::as_str).collect::<Vec<_>>());
         assert!(sentence.contains(rule), "{sentence}");
     }
+    let sentence = refuse(path, &["benchmark", "--data", "tiny", "--pairs", "tiny", "--methods", "cue"]);
+    assert!(sentence.contains("tiny: has no event with the field `set`"), "{sentence}");
     fs::create_dir(path.join("full")).expect("a folder");
     fs::write(path.join("full/thesis.tex"), "").expect("written");
     let sentence = refuse(path, &["benchmark", "--data", "tiny", "--methods", "cue", "--out", "full"]);

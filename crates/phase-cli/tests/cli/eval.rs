@@ -168,6 +168,11 @@ fn rubbish_is_refused() {
         ),
         (&[&goals("events.json")[..], &["--weights", "rubbish.json"]].concat(), &["--weights", "chance"]),
         (&[&theirs[..], &["events.json", "--watched", "5"]].concat(), &["--watched"]),
+        (&[&theirs[..], &["events.json", "--minds", "phase"]].concat(), &["--predictions", "--minds"]),
+        (&[&theirs[..], &["events.json", "--simulations", "9"]].concat(), &["--simulations"]),
+        (&[&theirs[..], &["events.json", "--one-way-turns"]].concat(), &["--one-way-turns"]),
+        (&[&theirs[..], &["events.json", "--strongest-coasts"]].concat(), &["--strongest-coasts"]),
+        (&[&theirs[..], &["events.json", "--original-random"]].concat(), &["--original-random"]),
         (&[&theirs[..], &["events.json", "--method", "chance"]].concat(), &["--predictions", "--method"]),
         (&[&theirs[..], &["events.json", "--weights", "w.safetensors"]].concat(), &["--weights"]),
     ];

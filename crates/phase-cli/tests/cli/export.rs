@@ -81,6 +81,27 @@ fn what_cannot_be_exported_is_refused() {
     succeed(path, &["export", "data", "--out", "out"]);
     let told = refuse(path, &["export", "data", "--events-per-file", "7", "--out", "out"]);
     assert!(told.contains("events_per_file"), "{told}");
+    // What is there is not what was exported.
+    let tar = path.join("out/train-00000.tar");
+    let whole = fs::read(&tar).expect("a file");
+    for (changed, part) in [
+        (Some(&whole[..whole.len() / 2]), "train-00000.tar: differs in size"),
+        (None, "train-00000.tar: cannot be read"),
+    ] {
+        match changed {
+            Some(bytes) => fs::write(&tar, bytes).expect("written"),
+            None => fs::remove_file(&tar).expect("removed"),
+        }
+        let told = refuse(path, &["export", "data", "--out", "out"]);
+        assert!(told.contains(part), "{told}");
+    }
+    fs::write(&tar, &whole).expect("written");
+    let index = fs::read(path.join("out/index.json")).expect("a list");
+    let mut index: Value = serde_json::from_slice(&index).expect("JSON");
+    index["files"] = Value::Array(Vec::new());
+    fs::write(path.join("out/index.json"), index.to_string()).expect("written");
+    let told = refuse(path, &["export", "data", "--out", "out"]);
+    assert!(told.contains("index.json: field `files`"), "{told}");
     fs::write(path.join("data/videos/demo-0001.mp4"), "x").expect("written");
     let output = crate::support::run(path, &["export", "data", "--out", "again"]);
     let told = text(&output.stderr);

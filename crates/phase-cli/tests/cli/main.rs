@@ -10,6 +10,7 @@ mod eval;
 mod export;
 mod gen_dataset;
 mod hostile;
+mod inputs;
 mod interruption;
 mod json;
 mod laboratory;

@@ -62,6 +62,21 @@ fn another_dataset_or_a_changed_file_is_no_proof() {
     let told = fail(path, &["unseal", "public", "--dataset", "other"]);
     assert!(told.contains("the manifest of other is not what was sealed"), "{told}");
     refuse(path, &["seal", "secret", "--out", "public"]);
+    for extra in ["extra.json", "videos/extra.mp4"] {
+        fs::write(path.join("public").join(extra), "x").expect("written");
+        let told = fail(path, &["unseal", "public", "--dataset", "secret"]);
+        assert!(told.contains(&format!("{extra}: is none of the `files` of seal.json")), "{told}");
+        fs::remove_file(path.join("public").join(extra)).expect("removed");
+    }
+    // Files that systems leave are none of it.
+    fs::write(path.join("public/videos/.DS_Store"), "x").expect("written");
+    succeed(path, &["unseal", "public", "--dataset", "secret"]);
+    let file = path.join("public/seal.json");
+    let text = fs::read_to_string(&file).expect("a seal");
+    fs::write(&file, text.replacen("\"events\": 6", "\"events\": 5", 1)).expect("written");
+    let told = fail(path, &["unseal", "public", "--dataset", "secret"]);
+    assert!(told.contains("seal.json: field `events` must be 6, as in secret, not 5"), "{told}");
+    fs::write(&file, text).expect("written");
     let file = path.join("public/events.json");
     let text = fs::read_to_string(&file).expect("events").replacen("0.", "1.", 1);
     fs::write(&file, text).expect("written");

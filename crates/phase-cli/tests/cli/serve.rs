@@ -26,6 +26,10 @@ fn what_cannot_be_served_is_refused_in_a_sentence() {
         let sentence = refuse(folder.path(), &[&free[..], &options[..]].concat());
         assert!(sentence.contains(said), "{sentence}");
     }
+    for option in [&["--rounds", "5"][..], &["--invite-only"], &["--simulations", "9"], &["--seed", "1"]] {
+        let sentence = refuse(folder.path(), &[&free[..], &["--study", "rubbish.json"], option].concat());
+        assert!(sentence.contains(&format!("{}: is about games", option[0])), "{sentence}");
+    }
     let dataset = ["--scenes", "rubbish.json", "--split", "test"];
     assert!(refuse(folder.path(), &[&free[..], &dataset[..]].concat()).contains("--split needs a dataset"));
     // The folder's name is taken by a file.

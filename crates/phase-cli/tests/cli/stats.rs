@@ -44,6 +44,17 @@ fn clarity_is_told_by_kind_and_beside_it_what_people_would_report() {
     assert!(
         refuse(path, &["stats", "events.json", "--results", "events.json"]).contains("phase-eval-goals/1")
     );
+    // Events of the same names, one of which has another goal.
+    let mut other = recording("second");
+    other["agents"][1]["goal"]["landmark"] = json!(2);
+    write_events(&path.join("changed.json"), &[recording("first"), other]);
+    let refused = refuse(path, &["stats", "changed.json", "--results", "cue/results.json", "--quiet"]);
+    let rule = "field `run.events_sha256` is not that of the events of changed.json";
+    assert!(refused.contains("cue/results.json") && refused.contains(rule), "{refused}");
+    // Results may be those of the first events.
+    let first = ["--events", "events.json", "--limit", "1", "--out", "one"];
+    succeed(path, &[&["eval", "goals", "--method", "cue"], &first[..]].concat());
+    succeed(path, &["stats", "events.json", "--results", "one/results.json"]);
     for event in results["events"].as_array_mut().expect("events") {
         event["id"] = json!(format!("other-{}", event["id"].as_str().expect("a name")));
     }

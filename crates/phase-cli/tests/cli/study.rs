@@ -242,6 +242,11 @@ mod built_in {
         let path = folder.path();
         dataset(path);
         fs::create_dir(path.join("empty")).expect("a folder");
+        fs::create_dir(path.join("plain")).expect("a folder");
+        fs::copy(path.join("data/videos/demo-0000.mp4"), path.join("plain/played.mp4")).expect("copied");
+        write_events(&path.join("played.json"), &[recording("played")]);
+        write_events(&path.join("others.json"), &[recording("another")]);
+        let both = ["--videos", "plain", "--events", "played.json", "--events", "others.json"];
         let new = ["study", "new", "--experiment", "relations"];
         let cases: &[(&[&str], &[&str])] = &[
             (&["--videos", "nowhere"], &["nowhere"]),
@@ -254,6 +259,9 @@ mod built_in {
             (&["--videos", "data", "--videos-per-rater", "9"], &["`videos_per_rater`", "1 to 4"]),
             (&["--videos", "data", "--videos", "data"], &["twice"]),
             (&["--videos", "a b=data"], &["`stimuli[0].source`"]),
+            (&["--videos", "plain", "--events", "others.json"], &["--events others.json", ".mp4"]),
+            (&["--videos", "data", "--events", "played.json"], &["--events played.json", ".mp4"]),
+            (&both, &["--events others.json"]),
         ];
         let before = tree(path);
         for (arguments, parts) in cases {

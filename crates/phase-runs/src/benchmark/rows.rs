@@ -18,6 +18,7 @@ use crate::{
         task::evaluate,
         trajectories::Trajectories,
     },
+    laboratory::unusable,
     listener::Listener,
 };
 use phase_dataset::splits::Split;
@@ -61,6 +62,10 @@ impl<'a> Rows<'a> {
         let mut sets = Vec::new();
         for (label, common) in [generated].into_iter().chain(real).chain(pairs) {
             let input = Input::open(&common, listener)?;
+            if label == PAIRS && input.events.iter().all(|event| event.set.is_none()) {
+                let rule = "has no event with the field `set`, which --pairs needs";
+                return Err(unusable(&common.events, rule));
+            }
             let name = input.description.clone();
             let label = label.into();
             let sha256 = input.sha256.clone();

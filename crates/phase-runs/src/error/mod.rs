@@ -225,8 +225,9 @@ pub enum Fault {
 impl RunError {
     /// Thing that has to change for the run to succeed.
     #[must_use]
-    pub const fn fault(&self) -> Fault {
+    pub fn fault(&self) -> Fault {
         match self {
+            Self::Output(error) if error.is_full() => Fault::Run,
             Self::Track { source: VideoError::Interrupted, .. } | Self::Interrupted(_) | Self::Stopped(_) => {
                 Fault::Interruption
             }

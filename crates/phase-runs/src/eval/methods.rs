@@ -31,6 +31,12 @@ pub fn recognisers() -> Vec<&'static str> {
     Simple::NAMES.into_iter().chain(OTHER_RECOGNISERS).collect()
 }
 
+/// Whether a method imagines minds, which can then be chosen.
+#[must_use]
+pub fn has_minds(name: &str) -> bool {
+    Simple::NAMES.contains(&name)
+}
+
 /// A method for goals and relations; networks with the weights of a file or, without one, the bundled ones,
 /// SIMPLE with these minds.
 ///
@@ -116,7 +122,7 @@ pub(crate) fn intent_reader(
 
 /// SIMPLE with these minds; `None` for other methods, for which none can be chosen.
 fn simple(name: &str, minds: &MindChoice) -> Result<Option<Simple>, RunError> {
-    if !Simple::NAMES.contains(&name) {
+    if !has_minds(name) {
         let rule = || {
             RunError::Usage(format!("--minds, --one-way-turns, --simulations: method {name:?} has no minds"))
         };

@@ -3,6 +3,7 @@
 use super::{CLIPS_FILE, tables::unusable};
 use crate::{error::RunError, listener::Listener};
 use phase_dataset::manifest::{MANIFEST_FILE, Manifest};
+use phase_event::check_id;
 use phase_files::{new_folder::NewFolder, regular};
 use phase_laboratory::{
     counterbalance::{Stimulus, lists},
@@ -14,7 +15,10 @@ use phase_model::{
     random::{Purpose, stream},
 };
 use serde_json::Value;
-use std::path::{Path, PathBuf};
+use std::{
+    collections::BTreeSet,
+    path::{Path, PathBuf},
+};
 
 /// The question of a pack, as raters of studies read it, and its answers.
 const QUESTION: Question<'static> = Question {
@@ -180,11 +184,17 @@ fn trial(id: &str, steps: usize, kind: &str, relation: &str, set: Option<&str>) 
 fn of_clips(folder: &Path, file: &Path) -> Result<Vec<Item>, RunError> {
     let list: Value = phase_files::json::read(file)?;
     let clips = list["clips"].as_array().ok_or_else(|| unusable(file, "clips: must be a list"))?;
+    let mut known = BTreeSet::new();
     let of = |clip: &Value| {
         let text = |name: &str| {
             clip[name].as_str().ok_or_else(|| unusable(file, &format!("clips: {name} must be a text")))
         };
         let id = text("id")?;
+        // Videos are named by it.
+        check_id(id).map_err(|rule| unusable(file, &format!("clips: id {rule}, not {id:?}")))?;
+        if !known.insert(id.to_ascii_lowercase()) {
+            return Err(unusable(file, &format!("clips: id {id} is that of two clips")));
+        }
         let video = clip["video"]
             .as_str()
             .ok_or_else(|| unusable(file, &format!("clip {id} has no video; cut clips as mp4")))?;

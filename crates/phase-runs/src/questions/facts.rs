@@ -39,6 +39,12 @@ pub(super) struct Unit {
     pub(super) events: Vec<usize>,
 }
 
+/// Whether the events of a folder are divided into training, validation and test.
+pub(super) fn is_divided(path: &Path) -> Result<bool, RunError> {
+    let manifest = path.join(MANIFEST_FILE);
+    Ok(manifest.is_file() && Manifest::read(&manifest)?.events.iter().any(|event| event.split.is_some()))
+}
+
 /// The units of a dataset or file, in its order; of a dataset with splits only the events of one.
 pub(super) fn units(path: &Path, source: &EventInput, split: Option<Split>) -> Result<Vec<Unit>, RunError> {
     let manifest = path.join(MANIFEST_FILE);

@@ -288,6 +288,13 @@ impl QuestionRun {
             Some(file) => scoring::ratings(file)?,
             None => BTreeMap::new(),
         };
+        if let Some(split) = self.split {
+            let divided = self.events.iter().map(|path| facts::is_divided(path));
+            if !divided.collect::<Result<Vec<_>, _>>()?.contains(&true) {
+                let rule = format!("has no {} events: it is not divided", split.name());
+                return Err(unusable(&self.events[0], &rule));
+            }
+        }
         let mut all: Vec<Facts> = Vec::new();
         let mut known = BTreeSet::new();
         for (path, source) in self.events.iter().zip(sources) {

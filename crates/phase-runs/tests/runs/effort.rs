@@ -48,6 +48,12 @@ fn what_minds_of_a_kind_do_not_have_is_refused() {
     let error = Effort { prior: Some(Prior::Network), ..published }.settings().expect_err("no priors");
     let rule = "--prior network: published minds search without priors, or take `network-alone`";
     assert_eq!(error.to_string(), rule);
+    for kind in [MindKind::Phase, MindKind::Published] {
+        let minds = MindChoice { simulations: Some(7), ..minds(kind) };
+        let effort = Effort { minds, prior: Some(Prior::NetworkAlone), ..Effort::default() };
+        let error = effort.settings().expect_err("no search").to_string();
+        assert_eq!(error, "--simulations: minds with --prior network-alone do not search");
+    }
     let effort = published;
     let given = MindParameters::of(MindKind::Phase);
     let error = effort.settings_with(given).expect_err("two kinds").to_string();

@@ -45,7 +45,7 @@ fn lines_of_json_are_read_by_paths() {
             );
         }
     }
-    let columns = ["track.f", "track.p", "track.x", "track.y", "track.a"].map(String::from);
+    let columns = ["track.f", "track.p", "track.x", "track.y", ""].map(String::from);
     let options = TableOptions { columns, rate: 4.0, ..TableOptions::default() };
     let (event, tracking) = table(text.as_bytes(), "jsonl", &options).expect("an event");
     assert_eq!((event.steps(), tracking.frames), (9, 10));
@@ -63,6 +63,14 @@ fn what_is_no_table_is_refused_by_a_sentence() {
     assert!(refused("time,body,x,y\n0,a,8,8\n0,a,9,8\n0,b,9,9\n1,b,9,9\n").contains("two places"));
     assert!(refused("time,body,x,y\n0,a,8,8\n0.1,a,9,8\n0,b,9,9\n0.1,b,9,9\n").contains("at least 0.25 s"));
     assert!(refused("").contains("has no column"));
+    let columns = ["time", "body", "x", "y", "q"].map(String::from);
+    let named = TableOptions { columns, ..TableOptions::default() };
+    let lines = "0,a,8,8\n1,a,9,8\n0,b,9,9\n1,b,9,9\n";
+    let without = csv(&format!("time,body,x,y\n{lines}"), &named).expect_err("no angle").to_string();
+    assert!(without.contains("has no column \"q\", only"), "{without}");
+    let line = b"{\"time\": 0, \"body\": 0, \"x\": 5, \"y\": 6}";
+    let without = table(line, "jsonl", &named).expect_err("no angle").to_string();
+    assert!(without.contains("has no column \"q\" in any line"), "{without}");
     assert!(table(b"{\"x\": 1", "jsonl", &TableOptions::default()).is_err());
 }
 

@@ -1,0 +1,48 @@
+//! Addresses of pages and folders in the web, as options take them.
+
+/// Reads the address of a page.
+///
+/// # Errors
+/// The rule, unless it begins with `https://` or `http://`, names a host and is free of spaces, control
+/// characters, quotes and angle brackets.
+pub fn page(text: &str) -> Result<String, String> {
+    let rest = ["https://", "http://"].iter().find_map(|scheme| text.strip_prefix(scheme));
+    let host = rest.and_then(|rest| rest.split(['/', '?', '#']).next());
+    let is_other = |c: char| c.is_whitespace() || c.is_control() || ['"', '<', '>'].contains(&c);
+    if host.is_some_and(|host| host.contains(char::is_alphanumeric)) && !text.contains(is_other) {
+        return Ok(text.to_owned());
+    }
+    Err("must be an address such as https://example.org, without spaces, quotes and angle brackets".into())
+}
+
+/// Reads the address of a folder, to which names of files are added.
+///
+/// # Errors
+/// As for [`page`], and if it has a query (`?`) or a fragment (`#`).
+pub fn folder(text: &str) -> Result<String, String> {
+    match page(text)? {
+        address if address.contains(['?', '#']) => {
+            Err("must be the address of a folder, without a query (?) and a fragment (#)".into())
+        }
+        address => Ok(address),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{folder, page};
+
+    #[test]
+    fn an_address_has_a_scheme_and_a_host() {
+        for text in ["https://example.org", "http://[::1]:8017/videos/", "https://example.org/a?b=1#c"] {
+            assert_eq!(page(text), Ok(text.to_owned()));
+        }
+        for text in ["", "s", "example.org", "ftp://example.org", "https://", "http:///a", "https://a b"] {
+            assert!(page(text).is_err_and(|rule| rule.contains("https://")), "{text:?}");
+        }
+        assert_eq!(folder("https://example.org/a"), Ok("https://example.org/a".to_owned()));
+        for text in ["https://example.org/a?b", "https://example.org/#c"] {
+            assert!(folder(text).is_err_and(|rule| rule.contains("query")), "{text:?}");
+        }
+    }
+}
