@@ -119,8 +119,9 @@ fn timeless(file: &str) -> Value {
 fn a_training_that_was_broken_off_goes_on_to_the_same_weights() {
     let folder = tempfile::tempdir().unwrap();
     write_dataset(folder.path());
-    let path = |name: &str| folder.path().join(name).to_string_lossy().into_owned();
-    let (data, straight, broken) = (path(""), path("straight"), path("broken"));
+    let results = tempfile::tempdir().expect("a folder");
+    let path = |name: &str| results.path().join(name).to_string_lossy().into_owned();
+    let (data, straight, broken) = (folder.path().to_string_lossy(), path("straight"), path("broken"));
     let options = |out| [NETWORK, "--data", &data, "--out", out, "--rounds", ROUNDS];
     let (code, said) = train(&options(&straight));
     assert_eq!(code, Some(0), "{said}");
@@ -186,11 +187,17 @@ fn the_record_says_what_was_learnt_from() {
 fn beliefs_are_learnt_from_simulated_events_alone() {
     let folder = tempfile::tempdir().expect("a folder");
     write_dataset(folder.path());
-    let path = |name: &str| folder.path().join(name).to_string_lossy().into_owned();
-    let (code, said) = train(&["belief-network", "--data", &path(""), "--out", &path("out")]);
+    let results = tempfile::tempdir().expect("a folder");
+    let out = results.path().join("out").to_string_lossy().into_owned();
+    let data = folder.path().to_string_lossy();
+    let (code, said) = train(&["belief-network", "--data", &data, "--out", &out]);
     assert_eq!(code, Some(2), "{said}");
     assert!(said.contains("event train: was not simulated"), "{said}");
-    assert!(!Path::new(&path("out")).exists());
+    assert!(!Path::new(&out).exists());
+    let inside = folder.path().join("out").to_string_lossy().into_owned();
+    let (code, said) = train(&["belief-network", "--data", &data, "--out", &inside]);
+    assert_eq!(code, Some(2), "{said}");
+    assert!(said.contains("is an input file or in an input folder"), "{said}");
 }
 
 /// Further training events come from datasets and from simulations, and are in the record; what was trained

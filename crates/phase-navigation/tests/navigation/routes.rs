@@ -111,8 +111,7 @@ fn a_gap_that_rounding_turns_upside_down_is_no_panic() {
     }
 }
 
-/// The cost of a way through the best of nine points of each door, between which the middle of the body may be
-/// (u).
+/// The cost of a way through the best of nine points of each door between which the body fits (u).
 fn cost_through_points_of_doors(
     way: &[Crossing],
     (from, to): (Vec2, Vec2),
