@@ -71,7 +71,8 @@ def test_a_submission_is_scored_and_written(dataset, tmp_path):
     file = tmp_path / "again.json"
     wrong = dict(right, relation={"friendly": 0, "adversarial": 0, "neutral": 0} | {_other(events[0].relation): 1.0})
     file.write_text(json.dumps({"events": [{"id": id, "goals": wrong["goals"], "relation": wrong["relation"]} for id in answers]}))
-    phase.run("submit", file, "--events", dataset, "--method", "mine", "--by", "N. N.", "--source", "https://example.org", "--out", tmp_path)
+    who = ["--method", "mine", "--by", "N. N.", "--source", "https://example.org"]
+    phase.run("submit", file, "--events", dataset, *who, "--out", tmp_path)
     scores = json.loads((tmp_path / "data/leaderboard/scores.json").read_text())["scores"]
     mine = {score["task"]: score for score in scores if score["method"] == "mine"}
     assert mine["goals"]["relation"]["value"] == 0 and mine["trajectories"] == trajectories
