@@ -1,6 +1,6 @@
 //! Inputs stay as they are, whatever a file of results is named, and are what they say.
 
-use crate::support::{fail, recording, run, succeed, text, tree, write_events};
+use crate::support::{fail, recording, refuse, run, succeed, text, tree, write_events};
 use serde_json::{Value, json};
 use std::{fs, path::Path};
 
@@ -10,15 +10,6 @@ fn generate(path: &Path, out: &str, seed: &str, videos: bool) {
     let form = if videos { ["--size", "64"].as_slice() } else { &["--no-video"] };
     let made = ["gen-dataset", "--events", "6", "--seed", seed, "--out", out];
     succeed(path, &[&made[..], &effort, form].concat());
-}
-
-/// Runs the program, which refuses its arguments before any work.
-fn refused(path: &Path, arguments: &[&str]) -> String {
-    let output = run(path, arguments);
-    let told = text(&output.stderr);
-    assert_eq!(output.status.code(), Some(2), "{arguments:?}: {told}");
-    assert!(!told.contains("panicked"), "{arguments:?}: {told}");
-    told
 }
 
 #[test]
@@ -37,7 +28,7 @@ fn no_output_replaces_an_input() {
         &["data", "--json", "data/new.json"],
     ];
     for &case in cases {
-        let told = refused(path, &[&eval[..], case].concat());
+        let told = refuse(path, &[&eval[..], case].concat());
         assert!(told.contains("--json") && told.contains("is an input file or in an input folder"), "{told}");
     }
     for case in [
@@ -48,7 +39,7 @@ fn no_output_replaces_an_input() {
         &["track", "t.csv", "--out", "t.csv"],
         &["benchmark", "--data", "data", "--methods", "chance", "--figures", "data/manifest.json"],
     ] {
-        let told = refused(path, case);
+        let told = refuse(path, case);
         assert!(told.contains("is an input file or in an input folder"), "{case:?}: {told}");
     }
     assert_eq!(tree(path), before, "nothing was written");
@@ -61,10 +52,10 @@ fn a_place_that_cannot_be_written_is_refused_before_the_work() {
     write_events(&path.join("in.json"), &[recording("one")]);
     fs::create_dir(path.join("there")).expect("a folder");
     for (out, rule) in [("nowhere/a.csv", "its folder does not exist"), ("there", "is a folder")] {
-        let told = refused(path, &["aoi", "in.json", "--out", out]);
+        let told = refuse(path, &["aoi", "in.json", "--out", out]);
         assert!(told.contains(rule), "{told}");
     }
-    let told = refused(path, &["clip", "in.json", "--seconds", "1", "--size", "65", "--out", "clips"]);
+    let told = refuse(path, &["clip", "in.json", "--seconds", "1", "--size", "65", "--out", "clips"]);
     assert!(told.contains("--size: must be even for videos, not 65"), "{told}");
 }
 
