@@ -83,6 +83,7 @@ pub mod splits;
 pub mod stats;
 pub mod study;
 pub mod submit;
+pub mod surroundings;
 pub mod track;
 pub mod train;
 pub mod verify;

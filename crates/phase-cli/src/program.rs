@@ -3,6 +3,7 @@
 use crate::{
     console::{Unprinted, print_message},
     context::{Context, Program, Verbosity},
+    surroundings,
 };
 use clap::{Command, CommandFactory, FromArgMatches, Parser, Subcommand, error::ErrorKind};
 use phase_model::foreign;
@@ -65,6 +66,11 @@ pub fn run_with<I: Interface>(
     let command = with_negative_numbers(CommandLine::<I>::command());
     let command = command.name(program.name).bin_name(program.name);
     let parsed = command.try_get_matches_from(arguments);
+    let outside = parsed.as_ref().map_or(Ok(()), surroundings::check);
+    outside.map_err(|rule| {
+        let sentence = foreign::message(&rule).into_owned();
+        Failed { sentence, causes: Vec::new(), exit_code: 2, usage: false }
+    })?;
     match parsed.and_then(|matches| CommandLine::<I>::from_arg_matches(&matches)) {
         Ok(CommandLine { command, verbosity }) => {
             let context = Context { program, verbosity };

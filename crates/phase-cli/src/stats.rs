@@ -1,6 +1,6 @@
 //! `stats`: the paper's figures compared with those of a dataset or of other events, and plots of them.
 
-use crate::{context::Context, error::CliError, output::Output, parallel::Jobs};
+use crate::{context::Context, error::CliError, output::Output, parallel::Jobs, surroundings};
 use clap::Args;
 use phase_runs::{figures::EventFigures, motion::Answers};
 use std::path::{Path, PathBuf};
@@ -31,6 +31,7 @@ pub struct Stats {
 /// # Errors
 /// If the events cannot be used or the plots cannot be written.
 pub fn run(arguments: &Stats, context: &Context) -> Result<(), CliError> {
+    arguments.out.as_deref().map_or(Ok(()), surroundings::check_itself)?;
     let read = |results: &Path| Answers::read(results, &arguments.events);
     let answers = arguments.results.as_deref().map(read).transpose()?;
     let mut figures = EventFigures::of(&arguments.events, arguments.jobs.given(), context)?;

@@ -3,7 +3,7 @@
 use crate::ranges;
 use phase_agent::{Foresight, PhaseParameters};
 use phase_model::{
-    json::FieldError,
+    json::{FieldError, read_as},
     setting::{RangeError, Setting},
 };
 use phase_published::{PublishedParameters, RandomNumbers};
@@ -229,11 +229,21 @@ impl MindParameters {
     /// # Errors
     /// [`FieldError`], if a parameter is missing, of the wrong type, unknown or out of its range.
     pub fn read(value: &Value, field: &str) -> Result<Self, FieldError> {
-        let unreadable = |error: serde_json::Error| FieldError {
-            field: field.into(),
-            rule: format!("must be the parameters of minds: {error}"),
+        let refused = |rule: String| FieldError { field: field.into(), rule };
+        let unreadable = |error: serde_json::Error| refused(format!("must be parameters of minds: {error}"));
+        let mut members =
+            value.as_object().cloned().ok_or_else(|| refused("must be an object".to_owned()))?;
+        let named = members.remove("kind").unwrap_or_default();
+        let kind = MindKind::ALL.into_iter().find(|kind| named == kind.name());
+        // Each kind is read by its own type, whose errors name the member.
+        let parameters = match kind {
+            Some(MindKind::Phase) => Self::Phase(read_as(members.into()).map_err(unreadable)?),
+            Some(MindKind::Published) => Self::Published(read_as(members.into()).map_err(unreadable)?),
+            None => {
+                let rule = format!("must be phase or published, not {named}");
+                return Err(FieldError { field: format!("{field}.kind"), rule });
+            }
         };
-        let parameters = Unchecked::deserialize(value).map_err(unreadable)?.parameters();
         parameters.validate().map_err(|error| error.at(field))?;
         Ok(parameters)
     }

@@ -12,6 +12,7 @@ use phase_event::{ObservedEvent, Recording, SimulationRecord};
 use phase_evidence::Track;
 use phase_files::{FileError, Problem};
 use phase_model::path::RelativePath;
+use phase_sim::SimulationSettings;
 use serde_json::Value;
 use std::{
     borrow::Cow,
@@ -127,6 +128,19 @@ pub fn track(recording: &Recording) -> Track {
         Some(simulation) => Track::of_event(&simulation.event),
         None => Track { physics: recording.scene.physics(), states: recording.trajectory.states() },
     }
+}
+
+/// The settings that an event of a file or folder was simulated with.
+///
+/// # Errors
+/// [`RunError::SimulationSettings`].
+pub(crate) fn settings(
+    file: &Path,
+    id: &str,
+    simulation: &SimulationRecord,
+) -> Result<SimulationSettings, RunError> {
+    SimulationSettings::read(&simulation.settings, "settings")
+        .map_err(|source| RunError::SimulationSettings { file: file.to_owned(), id: id.to_owned(), source })
 }
 
 /// Events that can be loaded one at a time.

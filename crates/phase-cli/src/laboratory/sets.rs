@@ -2,7 +2,7 @@
 
 use crate::{
     address, context::Context, error::CliError, interrupt, laboratory::within, named::named, output::Output,
-    parallel::Jobs,
+    parallel::Jobs, surroundings,
 };
 use clap::{Args, ValueEnum, value_parser};
 use phase_laboratory::{
@@ -82,6 +82,7 @@ fn source(text: &str) -> Source {
 /// # Errors
 /// Any [`CliError`].
 pub fn matrices(arguments: &MatrixOptions, context: &Context) -> Result<(), CliError> {
+    surroundings::check_itself(&arguments.out)?;
     let run = MatrixRun {
         sources: arguments.sources.iter().map(|text| source(text)).collect(),
         ids: arguments.id.clone(),
@@ -160,6 +161,7 @@ pub struct PairingOptions {
 /// # Errors
 /// Any [`CliError`].
 pub fn pairing(arguments: &PairingOptions, context: &Context) -> Result<(), CliError> {
+    surroundings::check_itself(&arguments.out)?;
     interrupt::listen();
     let run = Pairing {
         events: arguments.events.clone(),

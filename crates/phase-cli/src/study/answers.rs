@@ -4,7 +4,7 @@ use super::{
     check::read,
     options::{BackupStudy, ExportStudy, ReportStudy},
 };
-use crate::{console::print_message, error::CliError};
+use crate::{console::print_message, error::CliError, surroundings};
 use phase_files::{FileError, Problem, WriteError, atomic, new_folder::NewFolder, private, regular, told};
 use phase_runs::error::RunError;
 use phase_study::{
@@ -138,6 +138,7 @@ pub(super) fn export(arguments: &ExportStudy) -> Result<(), CliError> {
 
 pub(super) fn report(arguments: &ReportStudy) -> Result<(), CliError> {
     let out = &arguments.out;
+    surroundings::check_itself(out)?;
     let (config, forms) = read(&arguments.config)?;
     let analysis = Analysis::of(&config, &forms, &raters(&config, &forms, &arguments.answers)?);
     let document = document(&config.title, &analysis);

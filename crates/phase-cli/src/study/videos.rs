@@ -118,6 +118,7 @@ fn of_dataset(folder: &Path, source: &str, base: &mut Base) -> Result<Vec<Stimul
             let sentence = format!("{}: event {} has no video", folder.display(), entry.id);
             return Err(CliError::Usage(sentence));
         };
+        video.verify(folder)?;
         let attitudes =
             entry.agents.each_ref().map(|agent| Attitude::try_from(agent.alpha).unwrap_or_default());
         let goals = entry.agents.each_ref().map(|agent| agent.goal);

@@ -33,7 +33,6 @@ fn no_output_replaces_an_input() {
     }
     for case in [
         &["aoi", "in.json", "--out", "in.json"][..],
-        &["aoi", "data", "--out", "data/areas.csv"],
         &["splits", "in.json", "--make", "in.json"],
         &["splits", "data", "--make", "data/manifest.json"],
         &["track", "t.csv", "--out", "t.csv"],
@@ -43,6 +42,68 @@ fn no_output_replaces_an_input() {
         assert!(told.contains("is an input file or in an input folder"), "{case:?}: {told}");
     }
     assert_eq!(tree(path), before, "nothing was written");
+}
+
+/// A dataset holds what its manifest says, and nothing else.
+#[test]
+fn no_result_lies_in_a_dataset() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path();
+    generate(path, "data", "1", true);
+    write_events(&path.join("in.json"), &[recording("one")]);
+    fs::write(path.join("t.csv"), "id,x\na,1\nb,2\nc,4\n").expect("written");
+    fs::create_dir(path.join("web")).expect("a folder");
+    fs::write(path.join("web/manifest.json"), r#"{ "name": "a page" }"#).expect("written");
+    let before = tree(path);
+    for case in [
+        &["stats", "in.json", "--out", "data/more"][..],
+        &["stats", "in.json", "--out", "data"],
+        &["rdm", "t.csv", "--out", "data"],
+        &["rdm", "t.csv", "--out", "data/events/more"],
+        &["match", "in.json", "--out", "data"],
+        &["render", "data", "--out", "data/videos/more"],
+        &["simulate", "--events", "in.json", "--no-video", "--out", "data/events/../more"],
+        &["pack", "data", "--for", "psychopy", "--out", "data/pack"],
+        &["eval", "goals", "--method", "chance", "--events", "in.json", "--out", "data/scores"],
+        &["gen-dataset", "--events", "1", "--no-video", "--out", "data/videos/more"],
+    ] {
+        let told = refuse(path, case);
+        assert!(told.contains("--out data") && told.contains("would lie in the dataset"), "{case:?}: {told}");
+    }
+    assert_eq!(tree(path), before, "nothing was written");
+    // Other programs have files of the manifest's name.
+    succeed(path, &["rdm", "t.csv", "--out", "web/matrices"]);
+}
+
+#[test]
+fn videos_are_those_of_the_manifest() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path();
+    generate(path, "data", "1", true);
+    fs::write(path.join("data/videos/demo-0003.mp4"), "no video").expect("written");
+    for case in [
+        &["pack", "data", "--for", "psychopy", "--out", "packed"][..],
+        &["study", "new", "--experiment", "relations", "--videos", "data", "--out", "study.json"],
+    ] {
+        let told = refuse(path, case);
+        assert!(told.contains("demo-0003.mp4: differs in size from what its manifest says"), "{told}");
+    }
+    succeed(path, &["pack", "data", "--id", "demo-0001", "--for", "psychopy", "--out", "packed"]);
+}
+
+#[test]
+fn settings_that_cannot_be_read_are_named_with_their_file() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path();
+    generate(path, "data", "1", false);
+    let text = fs::read_to_string(path.join("data/events/demo-0000.json")).expect("an event");
+    let mut event: Value = serde_json::from_str(&text).expect("JSON");
+    let member = event.pointer_mut("/events/0/settings/minds/particles").expect("a setting");
+    *member = json!("many");
+    fs::write(path.join("odd.json"), event.to_string()).expect("written");
+    let eval = ["eval", "beliefs", "-q", "--method", "last-seen", "--events", "odd.json", "--out", "scores"];
+    let told = refuse(path, &eval);
+    assert!(told.contains("odd.json: event demo-0000") && told.contains("particles"), "{told}");
 }
 
 #[test]
@@ -105,6 +166,7 @@ fn a_part_of_events_that_are_not_divided_is_refused() {
     generate(path, "data", "1", false);
     let told = fail(path, &["questions", "data", "--split", "test", "--no-video", "--out", "asked"]);
     assert!(told.contains("data: has no test events: it is not divided"), "{told}");
+    assert!(!path.join("asked").exists(), "the folder is not claimed");
 }
 
 /// The legend of the picture is as wide as the arena.

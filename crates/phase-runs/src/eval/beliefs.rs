@@ -1,7 +1,7 @@
 //! Places at which agents believe entities to be, compared with their particles.
 
 use super::{Answers, answers::AnswerSource, input::Event, methods, networks, task::Task};
-use crate::error::RunError;
+use crate::{error::RunError, source};
 use phase_belief::{AscribedBelief, Glance};
 use phase_eval::beliefs::{BeliefEvent, BeliefQuestion, asked_steps};
 use phase_event::{
@@ -68,6 +68,10 @@ impl Task for BeliefTask {
         check_simulated(event, file)
     }
 
+    fn check_contents(&self, recording: &Recording, file: &Path) -> Result<(), RunError> {
+        check_settings(recording, file)
+    }
+
     fn ask(
         &self,
         event: &Event,
@@ -85,6 +89,12 @@ impl Task for BeliefTask {
             TrueBeliefs::of(recording, self.order, &steps)?.questions(&answers).map_err(MethodError::new)?;
         Ok(Some(BeliefEvent { id: event.id.clone(), order: self.order, questions, cpu_seconds, details }))
     }
+}
+
+/// Checks that the settings of a simulated event can be read, which tell what its agents believe.
+pub(super) fn check_settings(recording: &Recording, file: &Path) -> Result<(), RunError> {
+    let Some(simulation) = &recording.simulation else { return Ok(()) };
+    source::settings(file, &recording.id, simulation).map(drop)
 }
 
 /// Checks that an event was simulated and is long enough to ask about.

@@ -14,7 +14,11 @@ use phase_event::Recording;
 use phase_files::{checksum::sha256_hex, run};
 use phase_model::AGENT_COUNT;
 use phase_sampler::Variant;
-use std::{borrow::Cow, collections::BTreeSet, path::Path};
+use std::{
+    borrow::Cow,
+    collections::BTreeSet,
+    path::{Path, PathBuf},
+};
 
 /// The events of a run, loaded one at a time.
 #[derive(Debug)]
@@ -23,6 +27,8 @@ pub(crate) struct Input {
     pub name: String,
     /// Their name in a report.
     pub description: String,
+    /// Their file or folder.
+    pub path: PathBuf,
     /// Digest of their contents.
     pub sha256: String,
     /// The events.
@@ -82,7 +88,14 @@ impl Input {
         let contents: String =
             events.iter().map(|event| format!("{} {}\n", event.id, event.contents)).collect();
         let (name, description) = names(path, evaluation.split);
-        Ok(Self { name, description, sha256: sha256_hex(contents.as_bytes()), events, source })
+        Ok(Self {
+            name,
+            description,
+            path: path.clone(),
+            sha256: sha256_hex(contents.as_bytes()),
+            events,
+            source,
+        })
     }
 
     /// Loads one of the events.

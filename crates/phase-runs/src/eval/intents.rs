@@ -1,6 +1,13 @@
 //! Intents that agents without knowledge take each other to have, compared with their particles.
 
-use super::{Answers, answers::AnswerSource, beliefs::check_simulated, input::Event, methods, task::Task};
+use super::{
+    Answers,
+    answers::AnswerSource,
+    beliefs::{check_settings, check_simulated},
+    input::Event,
+    methods,
+    task::Task,
+};
 use crate::error::RunError;
 use phase_eval::{
     beliefs::asked_steps,
@@ -96,6 +103,10 @@ impl Task for IntentTask {
 
     fn check(&self, event: &Event, file: &Path) -> Result<(), RunError> {
         check_simulated(event, file)
+    }
+
+    fn check_contents(&self, recording: &Recording, file: &Path) -> Result<(), RunError> {
+        check_settings(recording, file)
     }
 
     fn ask(

@@ -81,6 +81,14 @@ pub(crate) trait Task: Sync {
     /// Describes the problem, continuing from the event's name.
     fn check(&self, event: &Event, file: &Path) -> Result<(), RunError>;
 
+    /// Whether all that the task asks about can be read from an event of a file.
+    ///
+    /// # Errors
+    /// Names the file, the event and the field.
+    fn check_contents(&self, _recording: &Recording, _file: &Path) -> Result<(), RunError> {
+        Ok(())
+    }
+
     /// Runs the method; `None` if it was cancelled.
     ///
     /// # Errors
@@ -202,6 +210,7 @@ fn one<T: Task>(
         return Ok(Some(answered));
     }
     let recording = input.load(event)?;
+    task.check_contents(&recording, &input.path)?;
     let mut counted = 0;
     let mut tick = || {
         counted += 1;

@@ -151,6 +151,9 @@ impl Pack {
                 .video
                 .as_ref()
                 .ok_or_else(|| unusable(&self.from, &format!("event {} has no video", entry.id)))?;
+            if self.ids.is_empty() || self.ids.contains(&entry.id) {
+                video.verify(&self.from)?;
+            }
             let set = entry.set.as_ref().map(|place| place.set.clone());
             Ok(Item {
                 place: video.path.below(&self.from),

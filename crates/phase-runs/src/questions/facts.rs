@@ -5,13 +5,13 @@ use crate::{
     engine,
     error::RunError,
     interrupt,
-    source::{EventInput, track},
+    source::{self, EventInput, track},
 };
 use phase_dataset::{
     manifest::{MANIFEST_FILE, Manifest},
     splits::Split,
 };
-use phase_event::{Recording, SimulationRecord};
+use phase_event::SimulationRecord;
 use phase_evidence::Track;
 use phase_model::{AgentId, Attitude, State};
 use phase_questions::{
@@ -95,7 +95,7 @@ pub(super) fn of_unit(
             let (seed, states) = (simulation.event.seed, Inside::states_of(&simulation.event));
             facts.inside = kept.inside(&facts.id, seed, &facts.track.physics, states);
             if facts.inside.is_none() {
-                let settings = settings(path, &recording, simulation)?;
+                let settings = source::settings(path, &recording.id, simulation)?;
                 let inside = inside(&facts, simulation, &settings, &mut known)?;
                 let Some(inside) = inside else { return Ok(None) };
                 kept.keep_inside(&facts.id, seed, &inside)?;
@@ -105,16 +105,6 @@ pub(super) fn of_unit(
         all.push(facts);
     }
     Ok(Some(all))
-}
-
-fn settings(
-    path: &Path,
-    recording: &Recording,
-    simulation: &SimulationRecord,
-) -> Result<SimulationSettings, RunError> {
-    SimulationSettings::read(&simulation.settings, "settings").map_err(|source| {
-        RunError::SimulationSettings { file: path.to_owned(), id: recording.id.clone(), source }
-    })
 }
 
 fn inside(

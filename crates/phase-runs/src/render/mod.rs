@@ -10,7 +10,7 @@ use crate::{
     listener::Listener,
     parallel::{self, make_all},
     picture::{self, BeliefFrame, Look, ObserverFrame, RenderedState},
-    source::{SeenEvent, SeenInput},
+    source::{self, SeenEvent, SeenInput},
     words,
 };
 use phase_event::SimulationRecord;
@@ -164,7 +164,7 @@ impl Rendering {
         let minds: Vec<Vec<BeliefFrame>> = match event.simulation() {
             _ if agents.is_empty() => Vec::new(),
             Some(simulation) => {
-                let settings = self.settings(id, simulation)?;
+                let settings = source::settings(&self.events, id, simulation)?;
                 self.check_memory(
                     id,
                     settings.minds.particles(),
@@ -232,13 +232,6 @@ impl Rendering {
         let rule = "--belief needs a simulated event";
         let why = "a measured recording does not tell what its agents saw and did";
         RunError::Usage(format!("{file}: event {id}: {rule}; {why}"))
-    }
-
-    /// The settings that an event was simulated with.
-    fn settings(&self, id: &str, simulation: &SimulationRecord) -> Result<SimulationSettings, RunError> {
-        SimulationSettings::read(&simulation.settings, "settings").map_err(|source| {
-            RunError::SimulationSettings { file: self.events.clone(), id: id.to_owned(), source }
-        })
     }
 }
 
