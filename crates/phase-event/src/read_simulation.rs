@@ -56,6 +56,7 @@ pub(crate) fn event_of(
             substeps: core::array::from_fn(|k| states[of_step + k]),
         });
     }
+    check_values(&of_length(event, "values", steps)?, &recorded)?;
     for (agent, start) in scene.agents.iter_mut().zip(states[0].bodies) {
         agent.start = start;
     }
@@ -96,6 +97,22 @@ fn of_length<'a>(event: &Field<'a>, key: &str, length: usize) -> Result<Field<'a
         let rule = format!("must hold one entry for each of the {length} steps of `trajectory`, not {found}");
         Err(field.error(rule))
     }
+}
+
+/// Each agent's `values` repeat what its `thoughts` say of the subgoal that it pursues.
+fn check_values(values: &Field<'_>, steps: &[Step]) -> Result<(), FieldError> {
+    for (field, step) in values.items()?.zip(steps) {
+        let found = field.array()?;
+        let expected = step.thoughts.each_ref().map(Thought::pursued);
+        let same = |(found, expected): (&Value, &Option<&SubgoalValue>)| match expected {
+            Some(proposed) => found.as_f64() == Some(proposed.value),
+            None => found.is_null(),
+        };
+        if found.len() != AGENT_COUNT || !found.iter().zip(&expected).all(same) {
+            return Err(field.must_be("what `thoughts` say of the subgoals of both agents"));
+        }
+    }
+    Ok(())
 }
 
 fn check_means(event: &Event, trajectory: &Trajectory) -> Result<(), FieldError> {

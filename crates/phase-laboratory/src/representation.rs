@@ -7,7 +7,7 @@ use serde::Serialize;
 use thiserror::Error;
 
 /// Why features make no matrix.
-#[derive(Clone, PartialEq, Eq, Debug, Error)]
+#[derive(Clone, PartialEq, Debug, Error)]
 pub enum RepresentationError {
     /// Fewer than three stimuli: there is nothing to correlate.
     #[error("a matrix needs 3 stimuli at least, {0} have features")]
@@ -24,6 +24,14 @@ pub enum RepresentationError {
         /// Its number of features.
         found: usize,
     },
+    /// A feature whose square is no number.
+    #[error("{id} has the feature {feature}, but features must be from -1e150 to 1e150")]
+    TooLarge {
+        /// The stimulus.
+        id: String,
+        /// The feature.
+        feature: f64,
+    },
     /// The distance of two stimuli is not defined.
     #[error(
         "the {distance} distance of {one} and {other} is not defined, for the features of one of them are all equal"
@@ -37,6 +45,9 @@ pub enum RepresentationError {
         other: String,
     },
 }
+
+/// Largest size of a feature, so that sums of squares of differences are numbers.
+const LARGEST_FEATURE: f64 = 1e150;
 
 /// A measure of the dissimilarity of two feature vectors.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default, Serialize)]
@@ -106,6 +117,11 @@ impl Dissimilarity {
                 id: id.clone(),
                 found: other.len(),
             });
+        }
+        for (id, row) in features {
+            if let Some(&feature) = row.iter().find(|feature| feature.abs() > LARGEST_FEATURE) {
+                return Err(RepresentationError::TooLarge { id: id.clone(), feature });
+            }
         }
         let mut condensed = Vec::with_capacity(features.len() * (features.len() - 1) / 2);
         for (k, (one, a)) in features.iter().enumerate() {

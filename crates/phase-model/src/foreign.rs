@@ -73,6 +73,37 @@ pub fn sentence(text: &str) -> Cow<'_, str> {
     short(text, LONGEST_SENTENCE)
 }
 
+/// What the library `csv` says of a table, in the words of other messages.
+///
+/// # Examples
+/// ```
+/// use phase_model::foreign::table;
+///
+/// let said = "CSV error: record 1 (line: 2, byte: 4): found record with 1 fields, \
+///     but the previous record has 2 fields";
+/// assert_eq!(table(said), "line 2: has 1 cell, the lines before have 2");
+/// ```
+#[must_use]
+pub fn table(said: &str) -> String {
+    let said = said.strip_prefix("CSV error: ").unwrap_or(said);
+    let parts = said.split_once(" (line: ").and_then(|(_, rest)| {
+        let (line, rest) = rest.split_once(", ")?;
+        Some((line, rest.split_once("): ")?.1))
+    });
+    let Some((line, problem)) = parts else { return said.to_owned() };
+    let cells = problem.strip_prefix("found record with ").and_then(|rest| {
+        let (found, rest) = rest.split_once(" fields, but the previous record has ")?;
+        Some((found, rest.strip_suffix(" fields")?))
+    });
+    match cells {
+        Some((found, before)) => {
+            let noun = if found == "1" { "cell" } else { "cells" };
+            format!("line {line}: has {found} {noun}, the lines before have {before}")
+        }
+        None => format!("line {line}: {problem}"),
+    }
+}
+
 /// A whole message, of any length, as it may go to a terminal: line breaks and tabs stay, all other unseen
 /// letters are written out.
 #[must_use]

@@ -8,7 +8,7 @@ use phase_event::{Missing, ObservedEvent, Tracking};
 use phase_model::{
     AGENT_COUNT, Layout, MAX_ENTITIES, Size, Vec2,
     arena::{self, STEP_SECONDS, STEP_VIDEO_SECONDS},
-    json,
+    foreign, json,
 };
 use serde_json::Value;
 use std::collections::BTreeMap;
@@ -192,8 +192,8 @@ fn each_line(
             if line.trim_ascii().is_empty() {
                 continue;
             }
-            let value =
-                json::parse_line(line, k + 1).map_err(|error| TrackError::Table(error.to_string()))?;
+            let value = json::parse_line(line, k + 1)
+                .map_err(|error| TrackError::Table(foreign::table(&error.to_string())))?;
             let member =
                 |path: &String| match path.split('.').try_fold(&value, |value, key| value.get(key))? {
                     Value::String(text) => Some(text.clone()),
@@ -210,7 +210,8 @@ fn each_line(
     }
     let delimiter = if ending == "tsv" { b'\t' } else { b',' };
     let mut reader = csv::ReaderBuilder::new().delimiter(delimiter).from_reader(bytes);
-    let headers = reader.headers().map_err(|error| TrackError::Table(error.to_string()))?.clone();
+    let headers =
+        reader.headers().map_err(|error| TrackError::Table(foreign::table(&error.to_string())))?.clone();
     let places_of = |name: &String| (0..headers.len()).filter(|&k| headers[k].trim() == name).collect();
     let mut found: [Vec<usize>; 5] = core::array::from_fn(|k| places_of(&options.columns[k]));
     if options.columns[4].is_empty() {
@@ -231,7 +232,7 @@ fn each_line(
         )));
     }
     for (k, record) in reader.records().enumerate() {
-        let record = record.map_err(|error| TrackError::Table(error.to_string()))?;
+        let record = record.map_err(|error| TrackError::Table(foreign::table(&error.to_string())))?;
         take(k + 2, places.map(|place| Some(record.get(place?)?.to_owned())))?;
     }
     Ok(())

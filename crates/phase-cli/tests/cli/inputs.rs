@@ -76,6 +76,18 @@ fn no_result_lies_in_a_dataset() {
 }
 
 #[test]
+fn names_of_matrices_are_names_of_different_files_on_every_system() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path();
+    fs::write(path.join("t.csv"), "id,x\na,1\nb,2\nc,4\n").expect("written");
+    let told = refuse(path, &["rdm", "A=t.csv", "a=t.csv", "--out", "matrices"]);
+    assert!(told.contains("\"a\": names of matrices must be different"), "{told}");
+    fs::write(path.join("t.csv"), "id,x\na,1\nb\nc,4\n").expect("written");
+    let told = refuse(path, &["rdm", "t.csv", "--out", "matrices"]);
+    assert!(told.contains("t.csv: line 3: has 1 cell, the lines before have 2"), "{told}");
+}
+
+#[test]
 fn videos_are_those_of_the_manifest() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path();
@@ -89,6 +101,15 @@ fn videos_are_those_of_the_manifest() {
         assert!(told.contains("demo-0003.mp4: differs in size from what its manifest says"), "{told}");
     }
     succeed(path, &["pack", "data", "--id", "demo-0001", "--for", "psychopy", "--out", "packed"]);
+}
+
+#[test]
+fn a_preset_that_cannot_be_read_is_no_fault_of_the_dataset() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path();
+    generate(path, "data", "1", false);
+    let told = refuse(path, &["verify", "-q", "data", "--replay", "--preset", "nope"]);
+    assert!(told.contains("error: nope: cannot be read"), "{told}");
 }
 
 #[test]

@@ -133,6 +133,10 @@ fn what_makes_no_matrix_is_refused() {
     assert!(of(&[&[1.0], &[2.0]], Distance::Euclidean).contains("3 stimuli"));
     assert!(of(&[&[1.0], &[2.0, 1.0], &[1.0]], Distance::Euclidean).contains("s1 has 2 features, s0 has 1"));
     assert!(of(&[&[1.0, 1.0], &[2.0, 1.0], &[1.0, 3.0]], Distance::Correlation).contains("not defined"));
+    for distance in Distance::ALL {
+        let huge = of(&[&[1e308, -1e308], &[-1e308, 1e308], &[1.0, 2.0]], distance);
+        assert!(huge.contains("s0 has the feature 1") && huge.contains("from -1e150 to 1e150"), "{huge}");
+    }
 }
 
 #[test]

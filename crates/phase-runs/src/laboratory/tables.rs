@@ -2,6 +2,7 @@
 
 use crate::error::RunError;
 use phase_files::{WriteError, atomic, regular};
+use phase_model::foreign;
 use serde_json::{Map, Value, json};
 use std::path::Path;
 
@@ -78,14 +79,14 @@ impl Sheet {
         let mut reader = csv::ReaderBuilder::new().delimiter(separator).from_reader(text.as_bytes());
         let names: Vec<String> = match reader.headers() {
             Ok(names) => names.iter().map(str::to_owned).collect(),
-            Err(error) => return Err(unusable(path, &error.to_string())),
+            Err(error) => return Err(unusable(path, &foreign::table(&error.to_string()))),
         };
         if let Some(twice) = (1..names.len()).find(|&k| names[..k].contains(&names[k])) {
             return Err(unusable(path, &format!("has two columns {}", names[twice])));
         }
         let rows = reader.records().map(|row| row.map(|row| row.iter().map(str::to_owned).collect()));
         let rows = rows.collect::<Result<Vec<Vec<String>>, _>>();
-        let rows = rows.map_err(|error| unusable(path, &error.to_string()))?;
+        let rows = rows.map_err(|error| unusable(path, &foreign::table(&error.to_string())))?;
         Ok(Self { names, rows })
     }
 

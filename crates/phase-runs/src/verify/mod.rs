@@ -12,13 +12,14 @@ use crate::{
 };
 use phase_dataset::{
     manifest::{MANIFEST_FILE, Manifest},
+    preset::Preset,
     verify::{Check, verify_with, work},
 };
 use phase_files::{
     FileError, Problem,
     checksum::FileEntry,
     folder::{self, Contents, FolderError},
-    shown,
+    regular, shown,
 };
 use phase_model::random::{self, Purpose};
 use phase_sim::SimulationSettings;
@@ -80,8 +81,8 @@ pub fn manifest(folder: &Path) -> Result<Manifest, FileError> {
 /// Everything that is wrong with a dataset. Deeper checks are made of what no cheaper one has found wrong.
 ///
 /// # Errors
-/// [`RunError::Threads`], [`RunError::Interrupted`], or if nothing can be written into the system's folder
-/// for temporary files.
+/// If the preset that is given cannot be used, [`RunError::Threads`], [`RunError::Interrupted`], or if
+/// nothing can be written into the system's folder for temporary files.
 pub fn problems(
     folder: &Path,
     manifest: &Manifest,
@@ -89,6 +90,9 @@ pub fn problems(
     threads: Option<usize>,
     listener: &dyn Listener,
 ) -> Result<Vec<FileError>, RunError> {
+    if let Some(preset) = &checks.preset {
+        Preset::parse(preset, &regular::text(preset)?)?;
+    }
     let threads = parallel::threads(threads);
     let activity = format!("verifying {}", words::events(manifest.events.len()));
     let progress = listener.progress_over(&activity, work(manifest));

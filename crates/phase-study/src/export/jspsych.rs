@@ -3,6 +3,7 @@
 use super::{RELATIONS, document_of};
 use crate::forms::{Form, RELATION};
 use phase_eval::ratings::RatingCounts;
+use phase_model::foreign;
 use phase_model::json::{Field, FieldError, JsonError, parse_text};
 use serde_json::Value;
 use std::collections::BTreeMap;
@@ -119,7 +120,7 @@ fn read<'a>(trial: &Field<'a>, failures: &mut usize) -> Result<Option<(&'a str, 
 
 /// The rows of a table as objects. Texts that are JSON for `response` and `correct` are read as such.
 fn table(text: &str) -> Result<Value, JsPsychError> {
-    let csv = |error: csv::Error| JsPsychError::Csv(error.to_string());
+    let csv = |error: csv::Error| JsPsychError::Csv(foreign::table(&error.to_string()));
     let mut reader = csv::Reader::from_reader(text.as_bytes());
     let header = reader.headers().map_err(csv)?.clone();
     if let Some(missing) = ["trial_type", "form", "event", "response", "correct"]
