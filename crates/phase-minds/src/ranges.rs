@@ -69,6 +69,7 @@ fn imagined(simulations: usize, searches: usize, rollout_steps: usize) -> Ranged
 }
 
 pub(crate) fn of_phase(parameters: &PhaseParameters) -> [Ranged; 47] {
+    let [grasp, impassable, effort, yielding_clearance, passing_depth] = parameters.planning().settings();
     [
         (PARTICLES, parameters.particles as f64),
         (LAMBDA, parameters.lambda),
@@ -104,12 +105,12 @@ pub(crate) fn of_phase(parameters: &PhaseParameters) -> [Ranged; 47] {
         (length("clearance"), parameters.clearance.into()),
         (length("escape_length"), parameters.escape_length.into()),
         (price("obstruction", ""), parameters.obstruction.into()),
-        (price("grasp", "u"), parameters.grasp.into()),
+        grasp,
         (price("turning", "u/rad"), parameters.turning.into()),
-        (Setting::real("impassable", "u", 0.0, 1e6), parameters.impassable.into()),
-        (share("effort"), parameters.effort.into()),
-        (length("yielding_clearance"), parameters.yielding_clearance.into()),
-        (length("passing_depth"), parameters.passing_depth.into()),
+        impassable,
+        effort,
+        yielding_clearance,
+        passing_depth,
         (spacing("room_depth"), parameters.room_depth.into()),
         (price("corner", ""), parameters.corner.into()),
         (reach("bend_distance"), parameters.bend_distance.into()),

@@ -213,7 +213,7 @@ impl TryFrom<i8> for Attitude {
             -1 => Ok(Self::Hinder),
             0 => Ok(Self::Neutral),
             1 => Ok(Self::Help),
-            _ => Err("a social utility weight is -1, 0 or 1"),
+            _ => Err("an attitude `alpha` is -1, 0 or 1"),
         }
     }
 }

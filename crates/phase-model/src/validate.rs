@@ -70,7 +70,7 @@ pub enum SceneError {
         agent: AgentId,
     },
     /// The kind of event requires that one agent helps or hinders the other, but neither does.
-    #[error("event is {:?}, but no agent has the social utility weight {alpha}", .kind.name())]
+    #[error("event is {:?}, but no agent has the attitude `alpha` {alpha}", .kind.name())]
     NobodySocial {
         /// The kind.
         kind: EventKind,
@@ -78,7 +78,7 @@ pub enum SceneError {
         alpha: i8,
     },
     /// Both agents are social.
-    #[error("at most one agent may have a social utility weight other than 0")]
+    #[error("at most one agent may have an attitude `alpha` other than 0")]
     BothSocial,
     /// A helper's or hinderer's goal is not derived from the other's.
     #[error("agents[{agent}].goal of a {role} agent must be the other agent's goal{sign}")]

@@ -159,7 +159,8 @@ impl<'a> Interference<'a> {
 
     fn candidate(&self, effect: f32, effort: f32, subgoals: Vec<phase_model::Subgoal>) -> Candidate {
         let worth = effect - self.problem.parameters.effort * effort;
-        Candidate { worth, plan: Plan { subgoals, distance: effort } }
+        let is_feasible = effort < self.problem.parameters.impassable;
+        Candidate { worth, plan: Plan { subgoals, distance: effort, is_feasible } }
     }
 
     /// Rooms to pass on the way to a place, hands free.

@@ -8,7 +8,8 @@
 //!
 //! Key design decision: no action that can be attempted is pruned. A door that is too narrow or a load that
 //! is too heavy costs more than any detour. A weak agent without help still pulls at its load, as viewers
-//! expect. The cost is that the existence of a plan does not imply its success; only a low plan cost does.
+//! expect. The cost is that the existence of a plan does not imply its success;
+//! [`Plan::is_feasible`] says whether it can succeed.
 //!
 //! The search itself knows nothing of PHASE: [`search::solve`] finds the cheapest plan, of one agent or of
 //! several together, for any [`search::SymbolicProblem`].
@@ -64,5 +65,5 @@ pub use parameters::PlannerParameters;
 pub use plan::Plan;
 pub use planner::Planner;
 pub use problem::{Location, PlanningProblem};
-pub use search::{SymbolicPlan, SymbolicProblem};
+pub use search::{SearchOutcome, SymbolicPlan, SymbolicProblem};
 pub use value::Candidate;

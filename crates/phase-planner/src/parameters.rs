@@ -1,5 +1,6 @@
 //! The numbers that shape plans; those of numerical accuracy are in `accuracy`.
 
+use phase_model::setting::{RangeError, Setting};
 use phase_navigation::IMPASSABLE_COST;
 use serde::{Deserialize, Serialize};
 
@@ -28,6 +29,37 @@ pub struct PlannerParameters {
     pub yielding_clearance: f32,
     /// Distance behind a door at which an object lies that was passed through it (u); at least 0.
     pub passing_depth: f32,
+}
+
+impl PlannerParameters {
+    /// Every number with its name, unit and range, in the order of the fields. Lengths end at five times the
+    /// side of the arena.
+    #[must_use]
+    pub fn settings(&self) -> [(Setting, f64); 5] {
+        let length = |name| Setting::real(name, "u", 0.0, 100.0);
+        [
+            (Setting::real("grasp", "u", 0.0, 1000.0), self.grasp.into()),
+            (Setting::real("impassable", "u", 0.0, 1e6), self.impassable.into()),
+            (Setting::real("effort", "", 0.0, 1.0), self.effort.into()),
+            (length("yielding_clearance"), self.yielding_clearance.into()),
+            (length("passing_depth"), self.passing_depth.into()),
+        ]
+    }
+
+    /// Checks that every number is in its range.
+    ///
+    /// ```
+    /// use phase_planner::PlannerParameters;
+    ///
+    /// let odd = PlannerParameters { effort: f32::NAN, ..PlannerParameters::default() };
+    /// assert_eq!(odd.validate().unwrap_err().to_string(), "field `effort` must be 0 to 1, not NaN");
+    /// ```
+    ///
+    /// # Errors
+    /// [`RangeError`], which names the first that is not.
+    pub fn validate(&self) -> Result<(), RangeError> {
+        self.settings().iter().try_for_each(|(setting, value)| setting.check(*value))
+    }
 }
 
 impl Default for PlannerParameters {

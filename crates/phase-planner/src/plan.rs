@@ -19,13 +19,20 @@ pub struct Plan {
     /// The agent's own subgoals in order. Empty when there is nothing for it to do.
     pub subgoals: Vec<Subgoal>,
     /// Ĉ: distance that has to be travelled, by all agents in the plan, before the final goal state is
-    /// reached (u).
+    /// reached (u). A door on the way that is too narrow adds its price,
+    /// [`impassable`](crate::PlannerParameters::impassable).
     pub distance: f32,
+    /// Whether the plan can be carried out: it needs no door that is too narrow and no load that is too
+    /// heavy. An agent attempts the best plan even if it cannot.
+    pub is_feasible: bool,
 }
 
 impl Plan {
     /// The plan of an agent with nothing to do.
-    pub const STAY: Self = Self { subgoals: Vec::new(), distance: 0.0 };
+    pub const STAY: Self = Self { subgoals: Vec::new(), distance: 0.0, is_feasible: true };
+
+    /// The plan of an agent that finds nothing to try.
+    pub const NONE: Self = Self { subgoals: Vec::new(), distance: 0.0, is_feasible: false };
 
     /// The most immediate subgoal.
     #[must_use]
@@ -49,7 +56,11 @@ pub(crate) fn inspect(problem: &PlanningProblem<'_>, agent: AgentId, entity: Ent
     // Close and yet unobserved means behind the agent's back: approaching it means turning around.
     subgoals.push(is(Predicate::Touch(agent, entity)));
     drop_satisfied(problem, &mut subgoals);
-    Plan { subgoals, distance: route.map_or(0.0, |route| route.cost) }
+    Plan {
+        subgoals,
+        distance: route.map_or(0.0, |route| route.cost),
+        is_feasible: route.is_some_and(|route| route.impassable == 0),
+    }
 }
 
 /// Drops the leading subgoals that are satisfied already.
@@ -79,7 +90,7 @@ pub(crate) fn drop_satisfied_but_last(problem: &PlanningProblem<'_>, subgoals: &
 pub(crate) fn release(problem: &PlanningProblem<'_>, agent: AgentId) -> Plan {
     problem.state.grips[agent].map_or(Plan::STAY, |grip| Plan {
         subgoals: vec![not(Predicate::Attach(agent, grip.object))],
-        distance: 0.0,
+        ..Plan::STAY
     })
 }
 

@@ -23,6 +23,48 @@ use phase_predicates::achieved;
 /// [`plan`](Self::plan) is a function of the state alone: a planner keeps nothing between calls, uses no
 /// chance, and may be shared by threads. A call solves a few small A\* problems. Attitudes decide which: an
 /// own goal, the other's goal together with it, or a rise of the other's cost.
+///
+/// An object is too heavy for the agent that wants it on a landmark. Alone it tries in vain; a strong helper
+/// brings it there.
+///
+/// ```
+/// use phase_model::{
+///     AgentBody, AgentId, Attitude, Body, Goal, LandmarkId, Layout, ObjectId, PhysicsConfig, Sign, State,
+///     Vec2,
+/// };
+/// use phase_planner::Planner;
+///
+/// # fn main() -> Result<(), phase_model::LayoutError> {
+/// let layout = Layout::new(0, None)?; // without inner walls
+/// let agents = [AgentBody { radius: 0.8, max_force: 150.0 }, AgentBody { radius: 0.8, max_force: 450.0 }];
+/// let physics = PhysicsConfig {
+///     walls: layout.walls(),
+///     agents,
+///     object_radii: [1.0, 0.0], // u
+///     object_count: 1,
+/// };
+/// let places = [Vec2::new(9.0, 16.0), Vec2::new(13.0, 16.0), Vec2::new(14.0, 19.0), Vec2::ZERO];
+/// let state = State::new(places.map(|place| Body::at_rest(place, 0.0)));
+/// let (object, landmark) = (ObjectId::ZERO, LandmarkId::BOTTOM_RIGHT);
+/// let goal = Goal::ObjectOnLandmark { object, landmark, sign: Sign::Positive };
+/// let plan = |agent, attitude, goals| {
+///     let planner = Planner::new(physics.clone(), layout, agent, goals, attitude);
+///     planner.plan(&state, physics.entities().collect()) // it sees everything
+/// };
+/// // A goal of its own has no part in the plans of an agent that helps or hinders.
+/// let own = Goal::AgentOnLandmark { agent: AgentId::ONE, landmark, sign: Sign::Positive };
+///
+/// let alone = plan(AgentId::ZERO, Attitude::Neutral, [goal, own]);
+/// assert_eq!(alone.subgoals[1].to_string(), "Attach(agent 0, object 0)");
+/// assert!(!alone.is_feasible);
+///
+/// let helper = plan(AgentId::ONE, Attitude::Help, [goal, own]);
+/// let words: Vec<String> = helper.subgoals.iter().map(ToString::to_string).collect();
+/// assert_eq!(words, ["Attach(agent 1, object 0)", "On(object 0, landmark 2)", "not Attach(agent 1, object 0)"]);
+/// assert!(helper.is_feasible);
+/// # Ok(())
+/// # }
+/// ```
 #[derive(Clone, Debug)]
 pub struct Planner {
     physics: PhysicsConfig,
@@ -47,7 +89,7 @@ impl Planner {
         Self::with_parameters(physics, layout, agent, goals, attitude, PlannerParameters::default())
     }
 
-    /// A planner with other parameters.
+    /// A planner with other parameters, which [`PlannerParameters::validate`] checks.
     #[must_use]
     pub fn with_parameters(
         physics: PhysicsConfig,
@@ -62,6 +104,10 @@ impl Planner {
 
     /// HP(gᵢ, gⱼ, αᵢⱼ, b) of Algorithm 1: the agent's best plan if the world is in this state, of which it
     /// observes these entities.
+    ///
+    /// What it does not observe it still plans with, since the state says where it may be; but before it
+    /// rests because others do what is needed, it goes there to see that. [`Plan::NONE`] is the answer if the
+    /// state is not finite ([`State::is_finite`]) or a goal is about an object that does not exist.
     #[must_use]
     pub fn plan(&self, state: &State, observed: BodySet) -> Plan {
         self.plan_ceding(state, observed, None)
@@ -72,6 +118,10 @@ impl Planner {
     /// prevents something does so by other means. Agents with the same goal cede nothing to each other.
     #[must_use]
     pub fn plan_ceding(&self, state: &State, observed: BodySet, ceded: Option<ObjectId>) -> Plan {
+        let exists = |goal: &Goal| self.physics.entities().any(|entity| entity == goal.subject());
+        if !state.is_finite(&self.physics) || !self.goals.iter().all(exists) {
+            return Plan::NONE;
+        }
         let problem = PlanningProblem::new(&self.physics, &self.map, state, self.parameters);
         let own = self.goals[self.agent];
         let other = self.goals[self.agent.other()];
@@ -159,10 +209,10 @@ impl Planner {
                     self.is_helped(problem, own).then(|| yielding::subgoal(problem, self.agent, own));
                 let trying = || to_subgoals(&task, &plan, self.agent).subgoals;
                 let subgoals = yielding.flatten().map_or_else(trying, |subgoal| vec![subgoal]);
-                Plan { subgoals, distance: joint.distance }
+                Plan { subgoals, ..joint }
             }
             _ if own == other => self.cooperate(problem, own, self.agent, observed),
-            _ => Plan::STAY,
+            _ => Plan::NONE,
         }
     }
 
@@ -179,7 +229,7 @@ impl Planner {
         let actors = [true; AGENT_COUNT];
         let task = PlanningTask { problem, goal, actors, efforts, cooperative: true, narrowed: None };
         search::solve(&task, Node::start(problem))
-            .map_or(Plan::STAY, |plan| to_subgoals(&task, &plan, self.agent))
+            .map_or(Plan::NONE, |plan| to_subgoals(&task, &plan, self.agent))
     }
 
     /// The agent's [part](Self::joint_plan) of a joint plan. An agent without one yields.
@@ -235,10 +285,11 @@ impl Planner {
                 let from = problem.position(Location::Current(me));
                 let to = problem.position(Location::Current(condition.subject()));
                 let width = problem.width(self.agent, None);
-                let mut plan = release(problem, self.agent);
+                let mut plan = Plan { is_feasible: false, ..release(problem, self.agent) };
                 let gaps = problem.gaps(self.agent, BodySet::OBJECTS);
                 if let Some(route) = problem.route(from, to, width, gaps) {
                     plan.distance = route.cost;
+                    plan.is_feasible = route.impassable == 0;
                     rooms(&route, from, to, me, &mut plan.subgoals);
                 }
                 plan

@@ -30,7 +30,7 @@ pub enum Location {
 /// the part of each door that objects leave passable, for every set of objects that may have been moved.
 #[derive(Clone, Copy, Debug)]
 pub struct PlanningProblem<'a> {
-    /// Walls, bodies and forces.
+    /// Bodies and forces. Walls are those of `map`.
     pub physics: &'a PhysicsConfig,
     /// Rooms, doors and the ways between them.
     pub map: &'a Map,

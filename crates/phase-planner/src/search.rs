@@ -91,22 +91,87 @@ impl<State, Operator> SymbolicPlan<State, Operator> {
     }
 }
 
+/// What a search with a bound has found.
+#[derive(Clone, PartialEq, Debug)]
+pub struct SearchOutcome<State, Operator> {
+    /// A plan, the cheapest one unless the search was cut; `None` if there is none, or none was found.
+    pub plan: Option<SymbolicPlan<State, Operator>>,
+    /// Number of states that were expanded.
+    pub expanded: usize,
+    /// Whether the search would have expanded more states than it may.
+    pub is_cut: bool,
+}
+
 /// The cheapest plan from a state to one in which the goal holds; `None` if there is none.
 #[must_use]
 pub fn solve<P: SymbolicProblem>(
     problem: &P,
     start: P::State,
 ) -> Option<SymbolicPlan<P::State, P::Operator>> {
+    solve_within(problem, start, usize::MAX).plan
+}
+
+/// The cheapest plan as of [`solve`], if no more than so many states have to be expanded for it. A search
+/// that is cut ends with what it knows, which may be a plan that is not the cheapest.
+///
+/// A plan that may cost up to `w` times as much as the cheapest is found sooner if
+/// [`heuristic`](SymbolicProblem::heuristic) returns `w` times a lower bound.
+///
+/// ```
+/// use phase_planner::search::{SymbolicProblem, solve_within};
+///
+/// /// Counting up, without an end and with no number to stop at.
+/// struct Endless;
+///
+/// impl SymbolicProblem for Endless {
+///     type State = u64;
+///     type Operator = ();
+///
+///     fn successors(&self, number: &u64) -> impl IntoIterator<Item = ((), u64, f32)> {
+///         [((), number + 1, 1.0)]
+///     }
+///
+///     fn is_goal(&self, _number: &u64) -> bool {
+///         false
+///     }
+/// }
+///
+/// let outcome = solve_within(&Endless, 0, 1000);
+/// assert!(outcome.plan.is_none() && outcome.is_cut);
+/// assert_eq!(outcome.expanded, 1000);
+/// ```
+#[must_use]
+pub fn solve_within<P: SymbolicProblem>(
+    problem: &P,
+    start: P::State,
+    most: usize,
+) -> SearchOutcome<P::State, P::Operator> {
+    let mut expanded = 0;
+    let mut is_cut = false;
     let after = |state: &P::State| {
+        if expanded == most {
+            is_cut = true;
+            return Vec::new();
+        }
+        expanded += 1;
         let successors = problem.successors(state).into_iter();
         successors.map(|(_, after, cost)| (after, quantise(cost))).collect::<Vec<_>>()
     };
-    let (mut states, cost) = pathfinding::prelude::astar(
+    let found = pathfinding::prelude::astar(
         &start,
         after,
         |state| ((problem.heuristic(state) * COST_RESOLUTION) as u64).min(HIGHEST_BOUND),
         |state| problem.is_goal(state),
-    )?;
+    );
+    SearchOutcome { plan: found.map(|found| plan(problem, start, found)), expanded, is_cut }
+}
+
+/// The operators that lead along some states, at a cost in A*'s units.
+fn plan<P: SymbolicProblem>(
+    problem: &P,
+    start: P::State,
+    (mut states, cost): (Vec<P::State>, u64),
+) -> SymbolicPlan<P::State, P::Operator> {
     let operators: Vec<P::Operator> = states
         .windows(2)
         .filter_map(|pair| {
@@ -114,16 +179,16 @@ pub fn solve<P: SymbolicProblem>(
                 .successors(&pair[0])
                 .into_iter()
                 .filter(|(_, after, _)| *after == pair[1])
-                .min_by(|a, b| a.2.total_cmp(&b.2))
+                .min_by(|a, b| quantise(a.2).cmp(&quantise(b.2)).then(a.2.total_cmp(&b.2)))
                 .map(|(operator, ..)| operator)
         })
         .collect();
     let end = states.pop().unwrap_or(start);
-    Some(SymbolicPlan {
+    SymbolicPlan {
         steps: states.into_iter().zip(operators).collect(),
         end,
         cost: cost as f32 / COST_RESOLUTION,
-    })
+    }
 }
 
 /// A cost in A*'s units, rounded up so that a lower bound remains one. NaN counts as 0.

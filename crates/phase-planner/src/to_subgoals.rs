@@ -59,7 +59,7 @@ pub(crate) fn to_subgoals(task: &PlanningTask<'_>, plan: &TaskPlan, agent: Agent
         }
     }
     drop_satisfied(task.problem, &mut subgoals);
-    Plan { subgoals, distance }
+    Plan { subgoals, distance, is_feasible: plan.cost < task.problem.parameters.impassable }
 }
 
 /// Distance travelled in one operator, by whichever agent (u).

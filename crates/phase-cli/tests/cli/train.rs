@@ -46,7 +46,11 @@ fn bad_input_is_one_sentence_and_exit_code_2() {
             &out,
             format!("error: {torn}/manifest.json: is truncated: the JSON ends unfinished in line 1\n"),
         ),
-        (&empty, &out, format!("error: {empty}: has no train events\n")),
+        (
+            &empty,
+            &out,
+            format!("error: {empty}: has no train events; datasets of the preset phase-500 have\n"),
+        ),
         (
             &empty,
             &nowhere,

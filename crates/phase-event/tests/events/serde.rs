@@ -62,7 +62,7 @@ fn what_is_wrong_with_a_scene_is_said_as_of_an_event() {
         ("/objects/0", json!({"size_level": 0}), "field `objects[0].start` is missing"),
         ("/objects/0/start", json!({"x": 8, "y": 8, "z": 8}), "field `objects[0].start.z` is unknown"),
         ("/event", json!("dancing"), "field `event` must be one of helping"),
-        ("/agents/1/alpha", json!(1), "at most one agent may have a social utility weight"),
+        ("/agents/1/alpha", json!(1), "at most one agent may have an attitude `alpha`"),
     ];
     for (pointer, replacement, start) in cases {
         let mut value = scene.clone();

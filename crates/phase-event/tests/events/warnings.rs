@@ -129,6 +129,6 @@ fn helping_without_a_helper_is_an_error() {
     let mut value = file();
     value["events"][0]["agents"][0]["alpha"] = json!(0);
     let sentence = from_json(&value.to_string()).expect_err("nobody helps").to_string();
-    let text = "event made-up-1: event is \"helping\", but no agent has the social utility weight 1";
+    let text = "event made-up-1: event is \"helping\", but no agent has the attitude `alpha` 1";
     assert_eq!(sentence, text);
 }

@@ -115,7 +115,7 @@ fn nobody_who_helps_or_hinders_is_an_error_of_readers() {
         let scene = Scene { kind, ..scene() };
         assert_eq!(scene.check_kind(), Err(SceneError::NobodySocial { kind, alpha }));
         let error = Scene::from_json(&scene.to_json().expect("finite")).expect_err("nobody social");
-        let text = format!("event is {:?}, but no agent has the social utility weight {alpha}", kind.name());
+        let text = format!("event is {:?}, but no agent has the attitude `alpha` {alpha}", kind.name());
         assert_eq!(error.to_string(), text);
     }
 }

@@ -5,7 +5,7 @@ use petgraph::{
     graph::{DiGraph, NodeIndex},
     visit::{EdgeRef, Reversed},
 };
-use phase_planner::search::{SymbolicProblem, solve};
+use phase_planner::search::{SymbolicProblem, solve, solve_within};
 use proptest::prelude::*;
 
 /// A problem whose states are the nodes of a graph; a state's lower bound is a share of what really is left.
@@ -103,4 +103,39 @@ fn large_costs_and_infinite_bounds_add_up() {
     assert_eq!((plan.cost, plan.steps.len()), (3e7, 30));
     assert_eq!(solve(&Row, 100), None);
     assert_eq!(solve(&Row, 31), None);
+}
+
+/// Two operators between the same states, of which one has no cost that is a number.
+struct Twins;
+
+impl SymbolicProblem for Twins {
+    type State = u8;
+    type Operator = &'static str;
+
+    fn successors(&self, state: &u8) -> impl IntoIterator<Item = (&'static str, u8, f32)> {
+        let only = *state == 0;
+        [("dear", 1, 3.0), ("unknown", 1, f32::NAN)].into_iter().filter(move |_| only)
+    }
+
+    fn is_goal(&self, state: &u8) -> bool {
+        *state == 1
+    }
+}
+
+#[test]
+fn the_operators_of_a_plan_are_those_that_it_costs() {
+    let plan = solve(&Twins, 0).expect("a plan");
+    assert_eq!((plan.cost, plan.steps), (0.0, vec![(0, "unknown")]), "NaN counts as 0");
+}
+
+#[test]
+fn a_search_that_is_cut_says_so() {
+    let whole = solve_within(&Row, 0, usize::MAX);
+    assert!(!whole.is_cut && whole.expanded == 30, "cells 0 to 29");
+    assert_eq!(whole.plan, solve(&Row, 0));
+    assert_eq!(solve_within(&Row, 0, 30), whole, "that many suffice");
+    let cut = solve_within(&Row, 0, 29);
+    assert!(cut.is_cut && cut.plan.is_none() && cut.expanded == 29);
+    let none = solve_within(&Row, 31, usize::MAX);
+    assert!(!none.is_cut && none.plan.is_none());
 }

@@ -8,7 +8,7 @@ fn plan(landmark: u8, distance: f32) -> Plan {
         Entity::Agent(AgentId::ZERO),
         LandmarkId::ALL[usize::from(landmark)],
     )));
-    Plan { subgoals: vec![subgoal], distance }
+    Plan { subgoals: vec![subgoal], distance, is_feasible: true }
 }
 
 #[test]

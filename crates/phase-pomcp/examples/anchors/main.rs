@@ -20,7 +20,7 @@ use clap::{Parser, ValueEnum};
 use episodes::{Row, RowSettings};
 use rocksample::RockSample;
 use serde_json::json;
-use std::error::Error;
+use std::{error::Error, process::ExitCode};
 
 #[derive(Debug, Parser)]
 struct Arguments {
@@ -71,8 +71,17 @@ enum Name {
     LightDarkUnwidened,
 }
 
-fn main() -> Result<(), Box<dyn Error + Send + Sync>> {
-    let arguments = Arguments::parse();
+fn main() -> ExitCode {
+    match run(&Arguments::parse()) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("error: {error}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn run(arguments: &Arguments) -> Result<(), Box<dyn Error + Send + Sync>> {
     let name =
         arguments.problem.to_possible_value().map(|value| value.get_name().to_owned()).unwrap_or_default();
     if !arguments.json {
@@ -92,7 +101,9 @@ fn main() -> Result<(), Box<dyn Error + Send + Sync>> {
         let row = row(arguments.problem, &settings)?;
         if !arguments.json {
             let Row { mean, half_width, speed, .. } = row;
-            println!("{simulations:11}  {mean:6.2} ± {half_width:5.2}  {speed:13.0}");
+            // One episode has no interval.
+            let half_width = if half_width.is_nan() { "–".into() } else { format!("{half_width:.2}") };
+            println!("{simulations:11}  {mean:6.2} ± {half_width:>5}  {speed:13.0}");
         }
         rows.push(row);
     }
@@ -109,7 +120,7 @@ fn main() -> Result<(), Box<dyn Error + Send + Sync>> {
                 })
             })
             .collect();
-        let Arguments { episodes, seed, reuse, exploration, particles, .. } = arguments;
+        let Arguments { episodes, seed, reuse, exploration, particles, .. } = *arguments;
         let printed = json!({
             "problem": name, "episodes": episodes, "seed": seed, "reuse": reuse,
             "exploration": exploration, "particles": particles, "rows": rows,

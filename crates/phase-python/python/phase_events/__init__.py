@@ -7,10 +7,12 @@
 Two agents with bodies, limited views, beliefs, goals and attitudes act in a 2D physical world (:func:`simulate`), and methods infer from
 their motion what they want (:func:`infer`).
 
-Lengths are in arena units (u): the arena is the square from (6, 2) to (26, 22). A step lasts 0.25 s. Angles are in radians, and an
-agent at angle 0 faces up. Arrays have agents first, then objects, both by number. Whatever is invalid raises :class:`PhaseError`, a
-``ValueError`` whose text names the argument and the rule. Environments need ``phase-events[env]``; they are imported with
-:mod:`phase_events.env`.
+Lengths are in arena units (u): the arena is the square from (6, 2) to (26, 22). A step is 0.25 s of video and
+1/12 s of physics. Velocities are in u, and angular velocities in radians, per second of physics: a body with
+the velocity v moves by about v/12 in a step. Angles are in radians, and an agent at angle 0 faces up. Arrays
+have agents first, then objects, both by number. Whatever is invalid raises :class:`PhaseError`, a
+``ValueError`` whose text names the argument and the rule. Environments need ``phase-events[env]``; they are
+imported with :mod:`phase_events.env`.
 """
 
 from ._native import ACTIONS, OBSERVATION_SIZE, PhaseError, Scene

@@ -1,9 +1,10 @@
 """Environments for one learner (Gymnasium) and for two (PettingZoo). They need ``phase-events[env]``.
 
-A step lasts 0.25 s. Actions are indices of ``ACTIONS``. Observations are described in :mod:`phase_events.observation`. The reward of a
-step is Equation 1 of the paper, (1 - |attitude|) R(s, own goal) + attitude R(s, other's goal) + C(a), where R is 1 while the goal holds
-and C(a) is -0.02 for the seven pushes that are not forward, otherwise 0; :mod:`phase_events.rewards` has others. Episodes do not
-terminate; they are truncated after ``max_steps``.
+A step is 0.25 s of video and 1/12 s of physics. Actions are indices of ``ACTIONS``. Observations are
+described in :mod:`phase_events.observation`. The reward of a step is Equation 1 of the paper,
+(1 - |attitude|) R(s, own goal) + attitude R(s, other's goal) + C(a), where R is 1 while the goal holds and
+C(a) is -0.02 for the seven pushes that are not forward, otherwise 0; :mod:`phase_events.rewards` has others.
+Episodes do not terminate; they are truncated after ``max_steps``.
 
 Environments can be copied and pickled at any time. A copy goes on as the original does. ``get_state`` and ``set_state`` save and restore
 an episode.
@@ -216,7 +217,7 @@ class Arena:
         self._look()
 
     def step(self, actions):
-        """Lets both agents act for a step of 0.25 s.
+        """Lets both agents act for a step of 0.25 s of video.
 
         Args:
             actions: the numbers of both agents' actions, 0 to 13.
@@ -250,7 +251,8 @@ class Arena:
         return self._camera.pictures[0, agent if self._agent is None else 0].copy()
 
     def state(self):
-        """The true state: (4, 6), columns x, y (u), angle (rad), vx, vy (u/s), angular velocity (rad/s); 0 for absent objects."""
+        """The true state: (4, 6), columns x, y (u), angle (rad), vx, vy (u/s of physics), angular velocity
+        (rad/s of physics); 0 for absent objects."""
         self.check_running()
         return self._worlds.states()[0]
 
@@ -512,7 +514,7 @@ class PhaseParallelEnv(pettingzoo.ParallelEnv):
         return self._by_agent(self._arena.observation), self._by_agent(self._arena.info)
 
     def step(self, actions):
-        """Lets both agents act for a step of 0.25 s.
+        """Lets both agents act for a step of 0.25 s of video.
 
         Args:
             actions: a dict from ``agent_0`` and ``agent_1`` to their actions, indices of ``ACTIONS``.
@@ -549,7 +551,8 @@ class PhaseParallelEnv(pettingzoo.ParallelEnv):
         return answer
 
     def state(self):
-        """The true state: (4, 6), columns x, y (u), angle (rad), vx, vy (u/s), angular velocity (rad/s); 0 for absent objects."""
+        """The true state: (4, 6), columns x, y (u), angle (rad), vx, vy (u/s of physics), angular velocity
+        (rad/s of physics); 0 for absent objects."""
         return self._arena.state()
 
     def render(self):
@@ -641,7 +644,8 @@ class PhaseEnv(gymnasium.Env):
         return arena.observation(self._agent), arena.info(self._agent)
 
     def state(self):
-        """The true state: (4, 6), columns x, y (u), angle (rad), vx, vy (u/s), angular velocity (rad/s); 0 for absent objects."""
+        """The true state: (4, 6), columns x, y (u), angle (rad), vx, vy (u/s of physics), angular velocity
+        (rad/s of physics); 0 for absent objects."""
         return self._arena.state()
 
     def get_state(self):
@@ -672,7 +676,7 @@ class PhaseEnv(gymnasium.Env):
         return self._arena.observation(self._agent), self._arena.info(self._agent)
 
     def step(self, action):
-        """Lets the learner and its partner act at the same time, for a step of 0.25 s.
+        """Lets the learner and its partner act at the same time, for a step of 0.25 s of video.
 
         Args:
             action: the learner's action, an index of ``ACTIONS``.

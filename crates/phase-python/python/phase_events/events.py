@@ -46,7 +46,7 @@ class _Seen:
         return self.frames([row], side, palette)[0]
 
     def frames(self, rows=None, side=480, palette="paper"):
-        """Pictures at several rows of the trajectory, which are 0.25 s apart.
+        """Pictures at several rows of the trajectory, which are 0.25 s of video apart.
 
         >>> event.frames(8).shape     # the frames that a model with a budget of eight sees   # doctest: +SKIP
         (8, 480, 480, 3)
@@ -125,7 +125,8 @@ class ObservedEvent(_Seen):
         layout: base, 0 to 21, and reflection, 0 to 3 or ``None`` (docs/reference/formats/events.md has a picture of all).
         agent_size_levels: two numbers, 0 to 3: radius 0.8, 1.2, 1.6 and 1.01 u.
         object_size_levels: up to two of them.
-        trajectory: (steps + 1, entities, 5): x, y (u), vx, vy (u/s), angle (rad) of each entity, agents first, every 0.25 s.
+        trajectory: (steps + 1, entities, 5): x, y (u), vx, vy (u/s of physics), angle (rad) of each entity,
+            agents first. A row is 0.25 s of video and 1/12 s of physics after the one before it.
         id: its name.
 
     Raises:
@@ -170,7 +171,8 @@ class ObservedEvent(_Seen):
 
     @property
     def noise(self):
-        """Standard deviations of positions (u), velocities (u/s) and angles (rad), if it was tracked, or else ``None``."""
+        """Standard deviations of positions (u), velocities (u/s of physics) and angles (rad), if it was
+        tracked, or else ``None``."""
         return self._native.noise
 
     @property
@@ -180,7 +182,7 @@ class ObservedEvent(_Seen):
 
     @property
     def steps(self):
-        """The number of steps, each of 0.25 s."""
+        """The number of steps, each of 0.25 s of video."""
         return self._native.steps
 
     @property
@@ -210,9 +212,11 @@ class ObservedEvent(_Seen):
 
     @cached_property
     def trajectory(self):
-        """The motion: (steps + 1, entities, 5) 32-bit floats, columns x, y (u), vx, vy (u/s), angle (rad).
+        """The motion: (steps + 1, entities, 5) 32-bit floats, columns x, y (u), vx, vy (u/s of physics),
+        angle (rad).
 
-        Entities are agents, then objects. Row 0 is the initial state, every other the mean over the five substeps of its step.
+        Entities are agents, then objects. Row 0 is the initial state, every other the mean over the five
+        substeps of its step.
         """
         return self._native.trajectory()
 
@@ -270,7 +274,7 @@ class Event(_Seen):
 
     @property
     def steps(self):
-        """The number of steps, each of 0.25 s."""
+        """The number of steps, each of 0.25 s of video."""
         return self._native.steps
 
     @property
@@ -290,8 +294,9 @@ class Event(_Seen):
 
     @cached_property
     def substeps(self):
-        """The true state after each of the five substeps of every step: (5 · steps, entities, 6) 32-bit floats, columns x, y (u), angle
-        (rad), vx, vy (u/s), angular velocity (rad/s); ``None`` for a recording."""
+        """The true state after each of the five substeps of every step: (5 · steps, entities, 6) 32-bit
+        floats, columns x, y (u), angle (rad), vx, vy (u/s of physics), angular velocity (rad/s of physics);
+        ``None`` for a recording."""
         return self._native.substeps()
 
     @cached_property
@@ -417,7 +422,8 @@ def track(source, *, frame_rate=20, id="video", map=None):
             ``"3,1,2"``.
 
     Returns:
-        an :class:`ObservedEvent`. Its ``noise`` has the root mean square errors of positions (u), velocities (u/s) and angles (rad).
+        an :class:`ObservedEvent`. Its ``noise`` has the root mean square errors of positions (u), velocities
+        (u/s of physics) and angles (rad).
 
     Raises:
         PhaseError: naming the file and what the pictures lack (docs/how-to/track.md).
@@ -441,7 +447,8 @@ def simulate(scene, seed=0, *, id="event", engine="world", max_steps=100, parame
         seed: a whole number from 0 to 2**64 - 1. One seed gives one event, on every machine.
         id: the name of the event.
         engine: ``world`` (rapier2d), ``forward`` (the kernel that minds plan in) or ``original`` (the published simulator's world, bit for bit).
-        max_steps: the greatest length (steps of 0.25 s), 1 to 10000. The event ends earlier once nothing happens any more.
+        max_steps: the greatest length (steps of 0.25 s of video), 1 to 10000. The event ends earlier once
+            nothing happens any more.
         parameters: a dict of the parameters of both minds that differ from the defaults of their kind (docs/explanation/minds.md), such as
             ``{"simulations": 200}`` or ``{"kind": "published"}``.
 
@@ -490,7 +497,7 @@ def arrays(event):
 
         =================  =====================  ==================================================================
         ``id``             text                   the name of the event
-        ``trajectory``     (T + 1, E, 5) float32  x, y (u), vx, vy (u/s), angle (rad)
+        ``trajectory``     (T + 1, E, 5) float32  x, y (u), vx, vy (u/s of physics), angle (rad)
         ``radii``          (E,) float32           u, agents first
         ``walls``          (W, 2, 2) float32      both ends of each inner wall, x and y (u)
         ``landmarks``      (4, 2) float32         centres, x and y (u)
@@ -601,8 +608,8 @@ def to_pandas(events):
 
     Returns:
         a ``pandas.DataFrame`` with a row for each entity at each row of a trajectory. Its columns are ``event``, ``kind``, ``relation``,
-        ``step``, ``entity``, ``x``, ``y`` (u), ``vx``, ``vy`` (u/s), ``angle`` (rad) and ``action``, the name of the agent's action
-        from that row on.
+        ``step``, ``entity``, ``x``, ``y`` (u), ``vx``, ``vy`` (u/s of physics), ``angle`` (rad) and
+        ``action``, the name of the agent's action from that row on.
 
     Raises:
         PhaseError: if there are no events.

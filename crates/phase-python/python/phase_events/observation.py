@@ -1,13 +1,13 @@
 """An agent's observation as a vector of ``OBSERVATION_SIZE`` 32-bit floats.
 
-The vector has the parts of ``OBSERVATION_PARTS``, in order. The observing agent comes first, then the other agent, then the objects;
-what is not observed is 0.
+The vector has the parts of ``OBSERVATION_PARTS``, in order. The observing agent comes first, then the other
+agent, then the objects; what is not observed is 0. Seconds are those of physics, of which a step lasts 1/12.
 
 ===========  ========  =================================================================================================
 part         shape     numbers
 ===========  ========  =================================================================================================
-entities     (4, 11)   present, observed, touched (0 or 1); x, y (u); cos and sin of the angle, the angle (rad); vx, vy (u/s);
-                       angular velocity (rad/s)
+entities     (4, 11)   present, observed, touched (0 or 1); x, y (u); cos and sin of the angle, the angle
+                       (rad); vx, vy (u/s of physics); angular velocity (rad/s of physics)
 grips        (2, 7)    of each agent: holds object 0, object 1; by its head, tail, right, left; the object's angle minus its own (rad)
 contacts     (6,)      of the pairs (0, 1), (0, 2), (0, 3), (1, 2), (1, 3), (2, 3): in contact
 visible      (20, 20)  cells of the arena in the field of view, from the bottom left, row by row

@@ -120,7 +120,7 @@ def forecast(event, *, method="simple", watched=20, steps=20, seed=0):
     Args:
         event: an :class:`Event` or :class:`ObservedEvent`, of which only the first ``watched`` steps are looked at.
         method: one of ``methods()["trajectories"]``.
-        watched: the number of steps to watch (0.25 s each), 1 to the number that the event has.
+        watched: the number of steps to watch (0.25 s of video each), 1 to the number that the event has.
         steps: the number of further steps to predict, 1 to 10000.
         seed: a whole number from 0 to 2**64 - 1, for the method's random draws.
 
@@ -153,10 +153,11 @@ class Observer:
 
     Args:
         scene: a scene, as of :func:`phase_events.scene`, or an event, of which only walls and sizes are looked at.
-        row: the first row, (entities, 5): x, y (u), vx, vy (u/s), angle (rad) of each entity, agents first; ``None`` for that of the event.
+        row: the first row, (entities, 5): x, y (u), vx, vy (u/s of physics), angle (rad) of each entity,
+            agents first; ``None`` for that of the event.
         seed: a whole number from 0 to 2**64 - 1, for its random draws.
         decisions: the number of decisions of minds that :meth:`push` may simulate for a row, at least 0; each takes some milliseconds. ``None``
-            for 20, which is less than the 0.25 s that a step lasts.
+            for 20, which takes less than the 0.25 s for which a video shows a step.
 
     Raises:
         PhaseError: for a row of the wrong shape, or with numbers that are not finite.
@@ -177,7 +178,7 @@ class Observer:
         self._native = _native.Observer(start, seed_of(seed), decisions)
 
     def push(self, row):
-        """Watches the next row, 0.25 s later, and answers with limited effort.
+        """Watches the next row, 0.25 s of video later, and answers with limited effort.
 
         Args:
             row: (entities, 5), columns as of the first row.

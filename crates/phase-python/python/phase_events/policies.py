@@ -102,8 +102,9 @@ class Mind:
 
     @property
     def belief(self):
-        """The possible worlds, equally likely: (particles, entities, 6), columns x, y, angle, vx, vy, angular velocity, entities by
-        number, agents first; ``None`` before the first decision."""
+        """The possible worlds, equally likely: (particles, entities, 6), columns x, y (u), angle (rad), vx,
+        vy (u/s of physics), angular velocity (rad/s of physics), entities by number, agents first; ``None``
+        before the first decision."""
         return self.native.particles()
 
     @property

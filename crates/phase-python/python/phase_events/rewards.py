@@ -76,8 +76,8 @@ class Transition:
 
     @property
     def state(self):
-        """The bodies after the step, (N, 4, 6): columns x, y (u), angle (rad), vx, vy (u/s), angular velocity (rad/s); agents first,
-        then objects, 0 for absent ones."""
+        """The bodies after the step, (N, 4, 6): columns x, y (u), angle (rad), vx, vy (u/s of physics),
+        angular velocity (rad/s of physics); agents first, then objects, 0 for absent ones."""
         return self._rows(self._worlds.states())
 
     @property

@@ -162,7 +162,7 @@ class PhaseVectorEnv(gymnasium.vector.VectorEnv):
         return self._observed(), self._infos(begun)
 
     def step(self, actions):
-        """Lets every agent act for a step of 0.25 s.
+        """Lets every agent act for a step of 0.25 s of video.
 
         Args:
             actions: (num_envs,) whole numbers, indices of ``ACTIONS``.
@@ -289,7 +289,8 @@ class PhaseVectorEnv(gymnasium.vector.VectorEnv):
         return self._scenes[whole("world", world, 0, self._worlds_count - 1)]
 
     def state(self):
-        """The true states: (worlds, 4, 6), columns x, y (u), angle (rad), vx, vy (u/s), angular velocity (rad/s); 0 for absent objects.
+        """The true states: (worlds, 4, 6), columns x, y (u), angle (rad), vx, vy (u/s of physics), angular
+        velocity (rad/s of physics); 0 for absent objects.
 
         Agents do not see them; they are for critics and for shaping rewards.
 

@@ -25,7 +25,7 @@ pub enum TrainError {
     #[error("{}: is not a finished dataset; give a folder with manifest.json", .0.display())]
     NotADataset(PathBuf),
     /// The dataset has no training events, or no validation events.
-    #[error("{}: has no {split} events", folder.display())]
+    #[error("{}: has no {split} events; datasets of the preset phase-500 have", folder.display())]
     NoEvents {
         /// The dataset.
         folder: PathBuf,

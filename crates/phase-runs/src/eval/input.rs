@@ -76,8 +76,11 @@ impl Input {
                 .collect::<Result<_, _>>()?
         };
         if events.is_empty() {
-            let what = evaluation.split.map_or("", Split::name);
-            return Err(RunError::Usage(format!("{}: has no {what} events", path.display())));
+            let rule = evaluation.split.map_or_else(
+                || "has no events".to_owned(),
+                |split| format!("has no {} events; datasets of the preset phase-500 have", split.name()),
+            );
+            return Err(RunError::Usage(format!("{}: {rule}", path.display())));
         }
         events.truncate(evaluation.limit.unwrap_or(usize::MAX));
         for event in &mut events {
