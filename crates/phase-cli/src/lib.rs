@@ -83,7 +83,7 @@ pub mod splits;
 pub mod stats;
 pub mod study;
 pub mod submit;
-pub mod surroundings;
+mod surroundings;
 pub mod track;
 pub mod train;
 pub mod verify;

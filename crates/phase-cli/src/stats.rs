@@ -31,7 +31,7 @@ pub struct Stats {
 /// # Errors
 /// If the events cannot be used or the plots cannot be written.
 pub fn run(arguments: &Stats, context: &Context) -> Result<(), CliError> {
-    arguments.out.as_deref().map_or(Ok(()), surroundings::check_itself)?;
+    arguments.out.as_deref().map_or(Ok(()), surroundings::check_itself).map_err(CliError::Usage)?;
     let read = |results: &Path| Answers::read(results, &arguments.events);
     let answers = arguments.results.as_deref().map(read).transpose()?;
     let mut figures = EventFigures::of(&arguments.events, arguments.jobs.given(), context)?;

@@ -1,6 +1,6 @@
-//! Where results may lie: not in the folder of a dataset, which holds what its manifest says and nothing else.
+//! Places of results: not in the folder of a dataset, which holds what its manifest says and nothing
+//! else.
 
-use crate::error::CliError;
 use clap::ArgMatches;
 use phase_dataset::manifest::{DATASET_FORMAT, MANIFEST_FILE};
 use std::path::{Path, PathBuf};
@@ -27,9 +27,9 @@ pub(crate) fn check(matches: &ArgMatches) -> Result<(), String> {
 /// Checks that a folder to which files are added is not that of a dataset.
 ///
 /// # Errors
-/// [`CliError::Usage`].
-pub fn check_itself(out: &Path) -> Result<(), CliError> {
-    place(out).map_or(Ok(()), |folder| outside(out, &folder)).map_err(CliError::Usage)
+/// A sentence.
+pub(crate) fn check_itself(out: &Path) -> Result<(), String> {
+    place(out).map_or(Ok(()), |folder| outside(out, &folder))
 }
 
 /// The path of a folder that exists, without links.

@@ -16,8 +16,9 @@ use std::collections::BTreeMap;
 pub const MAX_FUTURES: usize = 200;
 
 /// The members of an event: those of predictions for either task, and those of results.
-const OF_EVENT: [&str; 18] = [
+const OF_EVENT: [&str; 19] = [
     "id",
+    "not_judged",
     "goals",
     "relation",
     "roles",

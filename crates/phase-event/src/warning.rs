@@ -1,8 +1,14 @@
 //! Suspicious properties of an event that can nevertheless be used.
 
-use crate::{Recording, error::in_trajectory};
+use crate::{ObservedEvent, Recording, error::in_trajectory};
 use core::fmt;
-use phase_model::{Relation, SceneWarning};
+use phase_model::{AGENT_COUNT, Relation, SceneWarning, arena::STEP_SECONDS};
+
+/// Shortest way of all bodies together that is compared with their velocities (u).
+const SHORTEST_WAY: f32 = 5.0;
+/// Largest ratio of the way that bodies move and the way that their velocities say, or its inverse. In the
+/// paper's recordings it is 1.09 at most; a velocity in seconds of video makes it 3.
+const LARGEST_RATIO: f32 = 1.5;
 
 /// Something in an event that is likely to be a mistake. The text names the field and the rule, not the
 /// event.
@@ -24,6 +30,13 @@ pub enum EventWarning {
         /// The steps of the trajectory.
         steps: usize,
     },
+    /// Velocities do not fit the positions.
+    Velocities {
+        /// The way that all bodies move from row to row (u).
+        moved: f32,
+        /// The way that their velocities say (u).
+        said: f32,
+    },
 }
 
 impl fmt::Display for EventWarning {
@@ -38,6 +51,11 @@ impl fmt::Display for EventWarning {
             Self::RecordedSteps { recorded, steps } => {
                 write!(formatter, "recorded_steps is {recorded}, but trajectory has {steps} steps")
             }
+            Self::Velocities { moved, said } => write!(
+                formatter,
+                "trajectory: bodies move {moved:.1} u in all, but their velocities say {said:.1} u; vx and vy are \
+                 per second of physics, of which a step lasts 1/12"
+            ),
         }
     }
 }
@@ -57,6 +75,27 @@ impl Recording {
         if let Some(recorded) = self.recorded_steps.filter(|&recorded| (recorded as usize) < steps) {
             warnings.push(EventWarning::RecordedSteps { recorded, steps });
         }
+        warnings.extend(self.observed().iter().flat_map(ObservedEvent::warnings));
         warnings
+    }
+}
+
+impl ObservedEvent {
+    /// Suspicious properties of the motion: velocities that do not fit the positions. Empty for most events.
+    #[must_use]
+    pub fn warnings(&self) -> Vec<EventWarning> {
+        let bodies = AGENT_COUNT + self.object_sizes().len();
+        let (mut moved, mut said) = (0.0_f32, 0.0_f32);
+        for pair in self.rows().windows(2) {
+            for (before, after) in pair[0][..bodies].iter().zip(&pair[1]) {
+                moved += before.position.distance(after.position);
+                said += (0.5 * (before.velocity + after.velocity)).length() * STEP_SECONDS as f32;
+            }
+        }
+        let fits = moved <= LARGEST_RATIO * said && said <= LARGEST_RATIO * moved;
+        if fits || moved.max(said) < SHORTEST_WAY {
+            return Vec::new();
+        }
+        vec![EventWarning::Velocities { moved, said }]
     }
 }

@@ -73,7 +73,7 @@ pub fn sentence(text: &str) -> Cow<'_, str> {
     short(text, LONGEST_SENTENCE)
 }
 
-/// What the library `csv` says of a table, in the words of other messages.
+/// A message of the library `csv` about a table, in the words of other messages.
 ///
 /// # Examples
 /// ```

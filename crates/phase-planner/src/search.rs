@@ -91,7 +91,7 @@ impl<State, Operator> SymbolicPlan<State, Operator> {
     }
 }
 
-/// What a search with a bound has found.
+/// The result of a search with a bound.
 #[derive(Clone, PartialEq, Debug)]
 pub struct SearchOutcome<State, Operator> {
     /// A plan, the cheapest one unless the search was cut; `None` if there is none, or none was found.

@@ -57,6 +57,7 @@ fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<observed::Observed>()?;
     module.add_class::<observer::PythonObserver>()?;
     module.add_class::<drawing::Renderer>()?;
+    module.add("VERSION", env!("CARGO_PKG_VERSION"))?;
     module.add_function(wrap_pyfunction!(mind::decide_all, module)?)?;
     module.add_function(wrap_pyfunction!(event::simulate, module)?)?;
     module.add_function(wrap_pyfunction!(scene::goal_index, module)?)?;

@@ -137,6 +137,12 @@ impl Observed {
         self.event.noise().map(|noise| (noise.position, noise.velocity, noise.angle))
     }
 
+    /// Likely mistakes in the motion, each as a sentence.
+    #[getter]
+    fn warnings(&self) -> Vec<String> {
+        self.event.warnings().iter().map(ToString::to_string).collect()
+    }
+
     /// All that cannot be judged of the event, each as a sentence.
     #[getter]
     fn not_judged(&self) -> Vec<String> {

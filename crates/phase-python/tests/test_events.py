@@ -7,6 +7,7 @@ import signal
 import subprocess
 import sys
 import threading
+import warnings
 
 import numpy as np
 import pytest
@@ -388,6 +389,27 @@ def test_a_viewer_sees_no_labels(event, tmp_path):
     ):
         with pytest.raises(phase.PhaseError, match=rule):
             phase.ObservedEvent(layout, agents, objects, rows)
+
+
+def test_velocities_of_another_unit_are_warned_of(tmp_path):
+    rows = np.zeros((21, 2, 5), dtype=np.float32)
+    rows[:, 0, 0] = 8 + 0.5 * np.arange(21)  # u; half a unit a step is 6 u/s of physics, and 2 u/s of video
+    rows[:, 0, 1], rows[:, 1, :2] = 14, (12, 5)
+    rows[:, 0, 2] = 6
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        phase.ObservedEvent((0, None), [0, 0], [], rows)
+    rows[:, 0, 2] = 2
+    with pytest.warns(UserWarning, match=r"event mine: trajectory: bodies move 10.0 u in all, .* say 3.3 u"):
+        mine = phase.ObservedEvent((0, None), [0, 0], [], rows, id="mine")
+    assert np.array_equal(mine.trajectory, rows)
+    body = [{"size_level": 0}] * 2
+    of_agent = [rows[:, agent].tolist() for agent in (0, 1)]
+    trajectory = {"columns": ["x", "y", "vx", "vy", "angle"], "agents": of_agent, "objects": []}
+    one = {"id": "mine", "layout": {"base": 0, "flip": None}, "agents": body, "objects": [], "trajectory": trajectory}
+    (tmp_path / "seen.json").write_text(json.dumps({"format": "phase-events/1", "events": [one]}))
+    with pytest.warns(UserWarning, match="per second of physics"):
+        phase.load_observed(tmp_path / "seen.json")
 
 
 def test_files_without_labels(event, tmp_path):

@@ -69,7 +69,13 @@ impl SeenInput {
             }
             phase_events::Read::Unlabelled(events) => {
                 check_ids(path, events.iter().map(|(id, _)| id.as_str()), ids)?;
-                Ok(Self::Unlabelled(events.into_iter().filter(|(id, _)| wanted(id, ids)).collect()))
+                let chosen: Vec<_> = events.into_iter().filter(|(id, _)| wanted(id, ids)).collect();
+                for (id, event) in &chosen {
+                    for warning in event.warnings() {
+                        listener.note(&format!("warning: {}: event {id}: {warning}", path.display()));
+                    }
+                }
+                Ok(Self::Unlabelled(chosen))
             }
         }
     }

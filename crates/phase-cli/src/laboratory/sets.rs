@@ -82,7 +82,7 @@ fn source(text: &str) -> Source {
 /// # Errors
 /// Any [`CliError`].
 pub fn matrices(arguments: &MatrixOptions, context: &Context) -> Result<(), CliError> {
-    surroundings::check_itself(&arguments.out)?;
+    surroundings::check_itself(&arguments.out).map_err(CliError::Usage)?;
     let run = MatrixRun {
         sources: arguments.sources.iter().map(|text| source(text)).collect(),
         ids: arguments.id.clone(),
@@ -161,7 +161,7 @@ pub struct PairingOptions {
 /// # Errors
 /// Any [`CliError`].
 pub fn pairing(arguments: &PairingOptions, context: &Context) -> Result<(), CliError> {
-    surroundings::check_itself(&arguments.out)?;
+    surroundings::check_itself(&arguments.out).map_err(CliError::Usage)?;
     interrupt::listen();
     let run = Pairing {
         events: arguments.events.clone(),

@@ -138,7 +138,7 @@ pub(super) fn export(arguments: &ExportStudy) -> Result<(), CliError> {
 
 pub(super) fn report(arguments: &ReportStudy) -> Result<(), CliError> {
     let out = &arguments.out;
-    surroundings::check_itself(out)?;
+    surroundings::check_itself(out).map_err(CliError::Usage)?;
     let (config, forms) = read(&arguments.config)?;
     let analysis = Analysis::of(&config, &forms, &raters(&config, &forms, &arguments.answers)?);
     let document = document(&config.title, &analysis);

@@ -132,3 +132,35 @@ fn helping_without_a_helper_is_an_error() {
     let text = "event made-up-1: event is \"helping\", but no agent has the attitude `alpha` 1";
     assert_eq!(sentence, text);
 }
+
+/// An agent goes along the arena at 6 u/s of physics, half a unit a step; its file says this velocity.
+fn walk(steps: usize, velocity: f32) -> Vec<EventWarning> {
+    let mut value = file();
+    let trajectory = &mut value["events"][0]["trajectory"];
+    let standing = |x: f32, y: f32| vec![json!([x, y, 0, 0, 0]); 1 + steps];
+    let row = |t: usize| json!([8.0 + 0.5 * t as f32, 14, velocity, 0, 0]);
+    trajectory["agents"] = json!([(0..=steps).map(row).collect::<Vec<_>>(), standing(12.0, 5.0)]);
+    trajectory["objects"] = json!([standing(20.0, 20.0)]);
+    value["events"][0]["recorded_steps"] = steps.into();
+    value["events"][0].as_object_mut().expect("an event").remove("recovered_actions");
+    let recording = &from_json(&value.to_string()).expect("a good file")[0];
+    let of_motion = |warning: &EventWarning| matches!(warning, EventWarning::Velocities { .. });
+    let warnings: Vec<EventWarning> = recording.warnings().into_iter().filter(of_motion).collect();
+    assert_eq!(recording.observed().expect("is sound").warnings(), warnings);
+    warnings
+}
+
+#[test]
+fn velocities_are_per_second_of_physics() {
+    assert_eq!(walk(20, 6.0), []);
+    let of_video = walk(20, 2.0);
+    assert_eq!(
+        of_video.iter().map(ToString::to_string).collect::<Vec<_>>(),
+        [
+            "trajectory: bodies move 10.0 u in all, but their velocities say 3.3 u; vx and vy are per second of \
+          physics, of which a step lasts 1/12"
+        ]
+    );
+    assert_eq!(walk(20, 0.0).len(), 1);
+    assert_eq!(walk(8, 2.0), [], "4 u are too few to tell");
+}

@@ -1,6 +1,7 @@
 //! Plans, tested module by module.
 
 mod contest;
+mod feasible;
 mod generic;
 mod plan;
 mod random;

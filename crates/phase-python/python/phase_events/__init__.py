@@ -16,6 +16,7 @@ imported with :mod:`phase_events.env`.
 """
 
 from ._native import ACTIONS, OBSERVATION_SIZE, PhaseError, Scene
+from ._native import VERSION as __version__
 from .command import evaluate, generate, run, submit
 from .events import RELATIONS, Event, Events, ObservedEvent, load_events, load_observed, simulate, track
 from .observation import split_observation
@@ -40,6 +41,7 @@ __all__ = [
     "ReplayPolicy",
     "Scene",
     "StillPolicy",
+    "__version__",
     "answer",
     "evaluate",
     "forecast",

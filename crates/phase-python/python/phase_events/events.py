@@ -4,6 +4,7 @@ import json
 import numbers
 import operator
 import os
+import warnings
 from collections.abc import Sequence
 from functools import cached_property
 
@@ -126,7 +127,8 @@ class ObservedEvent(_Seen):
         agent_size_levels: two numbers, 0 to 3: radius 0.8, 1.2, 1.6 and 1.01 u.
         object_size_levels: up to two of them.
         trajectory: (steps + 1, entities, 5): x, y (u), vx, vy (u/s of physics), angle (rad) of each entity,
-            agents first. A row is 0.25 s of video and 1/12 s of physics after the one before it.
+            agents first. A row is 0.25 s of video and 1/12 s of physics after the one before it; velocities
+            of another unit are warned of.
         id: its name.
 
     Raises:
@@ -139,6 +141,11 @@ class ObservedEvent(_Seen):
         agents = [whole("a size level", level, 0, 3) for level in _pair("agent_size_levels", agent_size_levels)]
         objects = [whole("a size level", level, 0, 3) for level in _items("object_size_levels", object_size_levels)]
         self._native = _native.Observed(text("id", id), layout, agents, objects, floats("trajectory", trajectory, (-1, -1, 5)))
+        self._warn(stacklevel=3)
+
+    def _warn(self, stacklevel):
+        for sentence in self._native.warnings:
+            warnings.warn(f"event {self.id}: {sentence}", stacklevel=stacklevel)
 
     @classmethod
     def of_native(cls, native):
@@ -406,7 +413,10 @@ def load_observed(path):
         PhaseError: naming file, event, field and rule.
     """
     path = path_of(path)
-    return [ObservedEvent.of_native(one) for one in _native.Observed.read(path)]
+    observed = [ObservedEvent.of_native(one) for one in _native.Observed.read(path)]
+    for one in observed:
+        one._warn(stacklevel=3)
+    return observed
 
 
 def track(source, *, frame_rate=20, id="video", map=None):

@@ -5,6 +5,7 @@ use crate::{
     engine,
     error::RunError,
     interrupt,
+    laboratory::unusable,
     source::{self, EventInput, track},
 };
 use phase_dataset::{
@@ -21,7 +22,7 @@ use phase_questions::{
 use phase_sim::{Simulation, SimulationSettings};
 use std::{
     collections::{BTreeMap, BTreeSet},
-    path::Path,
+    path::{Path, PathBuf},
 };
 
 /// Futures that are simulated from one state.
@@ -39,8 +40,18 @@ pub(super) struct Unit {
     pub(super) events: Vec<usize>,
 }
 
+/// Checks that events are divided into training, validation and test if one part of them is wanted.
+pub(super) fn check_split(events: &[PathBuf], split: Option<Split>) -> Result<(), RunError> {
+    let Some(split) = split else { return Ok(()) };
+    let divided = events.iter().map(|path| is_divided(path));
+    if divided.collect::<Result<Vec<_>, _>>()?.contains(&true) {
+        return Ok(());
+    }
+    Err(unusable(&events[0], &format!("has no {} events: it is not divided", split.name())))
+}
+
 /// Whether the events of a folder are divided into training, validation and test.
-pub(super) fn is_divided(path: &Path) -> Result<bool, RunError> {
+fn is_divided(path: &Path) -> Result<bool, RunError> {
     let manifest = path.join(MANIFEST_FILE);
     Ok(manifest.is_file() && Manifest::read(&manifest)?.events.iter().any(|event| event.split.is_some()))
 }

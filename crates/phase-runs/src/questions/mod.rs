@@ -117,7 +117,7 @@ impl QuestionRun {
     pub fn run(&self, listener: &dyn Listener) -> Result<Asked, RunError> {
         let sources = self.events.iter().map(|path| EventInput::open(path, &[], listener));
         let sources: Vec<EventInput> = sources.collect::<Result<_, _>>()?;
-        self.check_split()?;
+        facts::check_split(&self.events, self.split)?;
         let digests = sources.iter().map(source_digest).collect::<Result<Vec<_>, _>>()?;
         let run = Run::new([
             ("command", "questions".into()),
@@ -276,17 +276,6 @@ impl QuestionRun {
     fn ratings_digest(&self) -> Result<Value, RunError> {
         let bytes = self.ratings.as_deref().map(phase_files::json::bytes).transpose()?;
         Ok(json!(bytes.map(|bytes| phase_files::checksum::sha256_hex(&bytes))))
-    }
-
-    /// Checks that events are divided if one part of them is wanted.
-    fn check_split(&self) -> Result<(), RunError> {
-        let Some(split) = self.split else { return Ok(()) };
-        let divided = self.events.iter().map(|path| facts::is_divided(path));
-        if divided.collect::<Result<Vec<_>, _>>()?.contains(&true) {
-            return Ok(());
-        }
-        let rule = format!("has no {} events: it is not divided", split.name());
-        Err(unusable(&self.events[0], &rule))
     }
 
     /// Everything that is known of all events.
