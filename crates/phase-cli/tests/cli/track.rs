@@ -1,6 +1,6 @@
 //! `track`: several inputs at once.
 
-use crate::support::{refuse, run, succeed, text};
+use crate::support::{phase, recording, refuse, run, succeed, text, write_events};
 use serde_json::Value;
 use std::fs;
 
@@ -58,5 +58,44 @@ fn options_that_say_nothing_about_an_input_are_refused_before_anything_is_writte
         assert_eq!(output.status.code(), Some(2), "{options:?}: {told}");
         assert!(told.contains(rule), "{options:?}: {told}");
         assert!(!folder.join("out.json").exists(), "{options:?}");
+    }
+}
+
+/// One changed byte in the boxes of a video neither stops the program nor keeps it busy for ever.
+#[test]
+fn damaged_videos_are_refused() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let folder = folder.path();
+    write_events(&folder.join("in.json"), &[recording("one")]);
+    succeed(folder, &["render", "in.json", "--size", "480", "--out", "good.mp4", "--quiet"]);
+    succeed(folder, &["track", "good.mp4", "--quiet", "--out", "good.json"]);
+    let good = fs::read(folder.join("good.mp4")).expect("a video");
+    let place = |name: &[u8]| good.windows(4).position(|it| it == name).expect("a box");
+    // Sizes of boxes, lengths and numbers of entries.
+    let changes = [
+        (place(b"tkhd") - 1, 0),
+        (place(b"mdhd") - 1, 1),
+        (place(b"moov") - 2, 255),
+        (place(b"avcC") + 10, 255),
+        (place(b"stsc") + 8, 1),
+        (place(b"stsc") + 11, 0),
+        (place(b"stsz") + 12, 255),
+        (place(b"stsz") + 8, 1),
+        (place(b"stts") + 11, 0),
+        (place(b"stco") + 11, 0),
+    ];
+    for (k, (place, byte)) in changes.into_iter().enumerate() {
+        let mut damaged = good.clone();
+        assert_ne!(damaged[place], byte, "change {k}");
+        damaged[place] = byte;
+        fs::write(folder.join("bad.mp4"), damaged).expect("written");
+        // Without ffmpeg, which may make something of it.
+        let mut track = phase(folder);
+        let output =
+            track.args(["track", "bad.mp4", "--quiet", "--out", "bad.json"]).env("PATH", "").output();
+        let output = output.expect("the program starts");
+        let told = text(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "change {k}: {told}");
+        assert!(told.contains("bad.mp4: is no video that can be read here"), "change {k}: {told}");
     }
 }

@@ -201,7 +201,7 @@ fn beliefs_are_learnt_from_simulated_events_alone() {
     let inside = folder.path().join("out").to_string_lossy().into_owned();
     let (code, said) = train(&["belief-network", "--data", &data, "--out", &inside]);
     assert_eq!(code, Some(2), "{said}");
-    assert!(said.contains("is an input file or in an input folder"), "{said}");
+    assert!(said.contains("would lie in the dataset"), "{said}");
 }
 
 /// Further training events come from datasets and from simulations, and are in the record; what was trained

@@ -272,7 +272,7 @@ fn a_comparison_finds_events_that_changed() {
     let text = fs::read_to_string(&file).expect("an event");
     for (from, to) in [
         ("\"relation\":\"friendly\"", "\"relation\":\"neutral\""),
-        ("[\"Attach(agent 0, object 1)\",\"Stay\"]", "[\"Attach(agent 0, object 0)\",\"Stay\"]"),
+        ("[\"turnleft\",\"right\"]", "[\"turnright\",\"right\"]"),
         ("\"grips\":[[0,[null,null]],[8,", "\"grips\":[[0,[null,null]],[7,"),
         ("\"contacts\":[[0,[]],[4,", "\"contacts\":[[0,[]],[5,"),
     ] {

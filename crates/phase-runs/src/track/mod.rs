@@ -1,6 +1,7 @@
 //! Tracks of videos and tables: motion of bodies as an event without labels.
 
 mod animation;
+mod boxes;
 mod ffmpeg;
 mod mp4;
 mod pictures;
