@@ -46,3 +46,15 @@ mod tests {
         }
     }
 }
+
+/// Reads the name of a server, which a port may follow.
+///
+/// # Errors
+/// The rule, unless it has letters, digits, `-`, `.` and, around and in an address, `[`, `]` and `:` alone.
+pub fn host(text: &str) -> Result<String, String> {
+    let is_part = |c: char| c.is_ascii_alphanumeric() || "-.:[]".contains(c);
+    if text.contains(|c: char| c.is_ascii_alphanumeric()) && text.chars().all(is_part) {
+        return Ok(text.to_owned());
+    }
+    Err("must be the name of a server such as lab.example.org, without https:// and paths".into())
+}

@@ -1,6 +1,8 @@
 //! Every way in which a command can fail, and its exit code.
 
 use crate::{console::Unprinted, program::Failure};
+#[cfg(feature = "serve")]
+use phase_files::folder::FolderError;
 use phase_files::{FileError, WriteError};
 use phase_model::EventKind;
 use phase_runs::error::{Fault, RunError};
@@ -127,8 +129,13 @@ impl Failure for CliError {
             #[cfg(feature = "serve")]
             Self::Serve(error) => match error {
                 phase_serve::ServeError::Random(_) | phase_serve::ServeError::Runtime(_) => 1,
+                phase_serve::ServeError::Answers(error) if error.is_full() => 1,
+                phase_serve::ServeError::Write(error) if error.is_full() => 1,
+                phase_serve::ServeError::Folder(FolderError::NotWritable(error)) if error.is_full() => 1,
                 _ => 2,
             },
+            #[cfg(feature = "serve")]
+            Self::Answers(error) if error.is_full() => 1,
             #[cfg(feature = "serve")]
             Self::Study { .. } | Self::Answers(_) => 2,
             #[cfg(feature = "serve")]

@@ -5,8 +5,8 @@ use clap::ArgMatches;
 use phase_dataset::manifest::{DATASET_FORMAT, MANIFEST_FILE};
 use std::path::{Path, PathBuf};
 
-/// The name of the option for a file or folder of results.
-const OUT: &str = "out";
+/// The options that name files or folders of results.
+const OUTPUTS: [&str; 5] = ["out", "json", "figures", "make", "shapes"];
 
 /// Checks that the results of a command do not lie within a dataset. `matches` are those of a program.
 ///
@@ -17,11 +17,13 @@ pub(crate) fn check(matches: &ArgMatches) -> Result<(), String> {
     while let Some((_, inner)) = leaf.subcommand() {
         leaf = inner;
     }
-    let Ok(Some(out)) = leaf.try_get_one::<PathBuf>(OUT) else { return Ok(()) };
-    match out.ancestors().skip(1).find_map(place) {
-        Some(parent) => outside(out, &parent),
-        None => Ok(()),
+    for option in OUTPUTS {
+        let Ok(Some(out)) = leaf.try_get_one::<PathBuf>(option) else { continue };
+        if let Some(parent) = out.ancestors().skip(1).find_map(place) {
+            outside(option, out, &parent)?;
+        }
     }
+    Ok(())
 }
 
 /// Checks that a folder to which files are added is not that of a dataset.
@@ -29,7 +31,12 @@ pub(crate) fn check(matches: &ArgMatches) -> Result<(), String> {
 /// # Errors
 /// A sentence.
 pub(crate) fn check_itself(out: &Path) -> Result<(), String> {
-    place(out).map_or(Ok(()), |folder| outside(out, &folder))
+    place(out).map_or(Ok(()), |folder| outside("out", out, &folder))
+}
+
+/// Whether a file lies in a folder, not in one below it.
+pub(crate) fn is_in(file: &Path, folder: &Path) -> bool {
+    place(folder).is_some_and(|folder| file.parent().and_then(place) == Some(folder))
 }
 
 /// The path of a folder that exists, without links.
@@ -38,11 +45,15 @@ fn place(folder: &Path) -> Option<PathBuf> {
     folder.canonicalize().ok()
 }
 
-fn outside(out: &Path, folder: &Path) -> Result<(), String> {
+fn outside(option: &str, out: &Path, folder: &Path) -> Result<(), String> {
     match folder.ancestors().find(|folder| is_dataset(folder)) {
         Some(dataset) => {
             let rule = "which holds what its manifest says and nothing else; choose another place";
-            Err(format!("--out {}: would lie in the dataset {}, {rule}", out.display(), dataset.display()))
+            Err(format!(
+                "--{option} {}: would lie in the dataset {}, {rule}",
+                out.display(),
+                dataset.display()
+            ))
         }
         None => Ok(()),
     }

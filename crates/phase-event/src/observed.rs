@@ -6,7 +6,7 @@ use crate::{
 };
 use phase_model::{
     AGENT_COUNT, AgentBody, AgentId, Body, Entity, Layout, MAX_ENTITIES, MAX_OBJECTS, PhysicsConfig, Scene,
-    Size, State,
+    Size, State, Vec2, arena, physics::MAX_ANGLE,
 };
 use thiserror::Error;
 
@@ -22,6 +22,35 @@ pub enum ObservedError {
     /// A position, velocity or angle is not finite.
     #[error("row {0} of an observed event has a number that is not finite")]
     NotFinite(usize),
+    /// A body is outside the arena.
+    #[error("row {0} of an observed event has a body outside the arena (x 6 to 26, y 2 to 22)")]
+    Outside(usize),
+    /// A body is faster or turned farther than any can be.
+    #[error(
+        "row {0} of an observed event has a body faster than {MAX_ROW_SPEED:.0} u/s or an angle beyond \
+         {MAX_ANGLE} rad"
+    )]
+    Beyond(usize),
+}
+
+/// Greatest speed in a row (u/s of physics): that of a body that crosses the arena in one step.
+pub(crate) const MAX_ROW_SPEED: f32 = arena::DIAGONAL / arena::STEP_SECONDS as f32;
+
+/// Whether speed and angle of a row are such as a body can have.
+pub(crate) fn is_possible(velocity: Vec2, angle: f32) -> bool {
+    velocity.length() <= MAX_ROW_SPEED && angle.abs() <= MAX_ANGLE
+}
+
+fn check(index: usize, row: &[Body]) -> Result<(), ObservedError> {
+    if !row.iter().all(Body::is_finite) {
+        Err(ObservedError::NotFinite(index))
+    } else if !row.iter().all(|body| arena::contains(body.position)) {
+        Err(ObservedError::Outside(index))
+    } else if !row.iter().all(|body| is_possible(body.velocity, body.angle)) {
+        Err(ObservedError::Beyond(index))
+    } else {
+        Ok(())
+    }
 }
 
 /// The observable part of an event up to some moment: the layout with its landmarks, the sizes of all bodies,
@@ -44,7 +73,7 @@ impl ObservedEvent {
     /// the substeps of step t, bodies by [`Entity::index`]. Bodies past the last object are meaningless.
     ///
     /// # Errors
-    /// [`ObservedError`] for no rows, too many objects, or non-finite numbers.
+    /// [`ObservedError`] for no rows, too many objects, or numbers that no row may have.
     pub fn new(
         layout: Layout,
         agent_sizes: [Size; AGENT_COUNT],
@@ -58,19 +87,15 @@ impl ObservedEvent {
             return Err(ObservedError::TooManyObjects);
         }
         let bodies = AGENT_COUNT + object_sizes.len();
-        match rows.iter().position(|row| !row[..bodies].iter().all(Body::is_finite)) {
-            Some(row) => Err(ObservedError::NotFinite(row)),
-            None => {
-                Ok(Self { layout, agent_sizes, object_sizes, rows, noise: None, missing: Missing::default() })
-            }
-        }
+        rows.iter().enumerate().try_for_each(|(index, row)| check(index, &row[..bodies]))?;
+        Ok(Self { layout, agent_sizes, object_sizes, rows, noise: None, missing: Missing::default() })
     }
 
     /// An event of which these rows have been observed in a scene, whose layout and sizes are all that is
     /// read of it. See [`ObservedEvent::new`] for rows.
     ///
     /// # Errors
-    /// [`ObservedError`] for no rows, too many objects, or non-finite numbers.
+    /// [`ObservedError`] for no rows, too many objects, or numbers that no row may have.
     pub fn in_scene(scene: &Scene, rows: Vec<[Body; MAX_ENTITIES]>) -> Result<Self, ObservedError> {
         let objects = scene.objects.iter().map(|object| object.size).collect();
         Self::new(scene.layout, scene.agents.map(|agent| agent.size), objects, rows)
@@ -110,11 +135,9 @@ impl ObservedEvent {
     /// Adds the next row, as in [`ObservedEvent::new`].
     ///
     /// # Errors
-    /// [`ObservedError::NotFinite`]; the event is then what it was.
+    /// [`ObservedError`] for numbers that no row may have; the event is then what it was.
     pub fn push(&mut self, row: [Body; MAX_ENTITIES]) -> Result<(), ObservedError> {
-        if !row[..AGENT_COUNT + self.object_sizes.len()].iter().all(Body::is_finite) {
-            return Err(ObservedError::NotFinite(self.rows.len()));
-        }
+        check(self.rows.len(), &row[..AGENT_COUNT + self.object_sizes.len()])?;
         self.rows.push(row);
         Ok(())
     }

@@ -2,6 +2,7 @@
 
 use crate::{
     COLUMNS, Controller, Event, EventReadError, ObservedEvent, Recording, Recovered, Row, Trajectory,
+    observed::{MAX_ROW_SPEED, is_possible},
     read_simulation::{actions_of, event_of, seed_of, simulation_of},
     tracking::tracking,
     trajectory::body_of,
@@ -12,6 +13,7 @@ use phase_model::{
     arena::{self, STEP_VIDEO_SECONDS},
     json::{self, Field, FieldError, finite, shown},
     path::check_file_name,
+    physics::MAX_ANGLE,
     scene_json::Starts,
 };
 use serde_json::Value;
@@ -372,8 +374,13 @@ pub(crate) fn rows<const N: usize>(track: &Field<'_>) -> Result<Vec<[f32; N]>, F
                 FieldError { field: format!("{}[{t}][{column}]", error.field), ..error }
             })?;
         }
-        let [x, y] = [result[0], result[1]];
-        if arena::contains(Vec2::new(x, y)) {
+        let [x, y, vx, vy, angle] = [0, 1, 2, 3, 4].map(|column: usize| result[column]);
+        if !is_possible(Vec2::new(vx, vy), angle) {
+            let rule = format!(
+                "must not be faster than {MAX_ROW_SPEED:.0} u/s, and its angle must be within {MAX_ANGLE} rad"
+            );
+            Err(in_row(track.error(rule)))
+        } else if arena::contains(Vec2::new(x, y)) {
             Ok(result)
         } else {
             let rule = format!("must lie inside the arena (x 6 to 26, y 2 to 22), not at ({x}, {y})");

@@ -24,7 +24,7 @@ pub enum ObserverError {
     #[error(transparent)]
     Settings(#[from] RangeError),
     /// A row that is no observation.
-    #[error("the next row cannot be observed")]
+    #[error("the next row cannot be observed: {0}")]
     Row(#[from] ObservedError),
     /// Invalid parameters of the agents' search.
     #[error("the minds cannot be simulated")]

@@ -4,8 +4,13 @@
 use crate::{
     config::StudyConfig,
     forms::Forms,
-    record::{LONGEST_RESPONSE, MOST_PLAYS, Rater, Trial},
+    record::{LONGEST_RESPONSE, MOST_PLAYS, Millis, Rater, Trial},
 };
+
+/// The end of the year 2100 (ms since 1970).
+const LATEST: Millis = 4_133_980_799_999;
+/// Longest time that a clock may go back (ms): a day.
+const LONGEST_BACK: Millis = 86_400_000;
 
 /// A rater's number, and the rest of a sentence about them.
 pub(crate) type Misfit = (u64, String);
@@ -19,8 +24,13 @@ pub(crate) fn check(config: &StudyConfig, forms: &Forms, raters: &[Rater]) -> Re
 fn one(config: &StudyConfig, forms: &Forms, rater: &Rater) -> Result<(), String> {
     let pages = [rater.consented, rater.demographics.as_ref().map(|(at, _)| *at), rater.instructed];
     let times = rater.trials.iter().filter_map(|trial| trial.given.as_ref()).map(|given| given.at);
-    if times.chain(pages.into_iter().flatten()).chain([rater.joined]).any(|at| at < 0) {
-        return Err("has a time before 1970".into());
+    let times: Vec<Millis> = times.chain(pages.into_iter().flatten()).collect();
+    if times.iter().chain([&rater.joined]).any(|at| !(0..=LATEST).contains(at)) {
+        return Err("has a time that is not between 1970 and 2100".into());
+    }
+    // A clock that is set may go back for a while.
+    if times.iter().any(|at| at + LONGEST_BACK < rater.joined) {
+        return Err("has answers from before they came".into());
     }
     let came_on = pages.iter().any(Option::is_some) || !rater.trials.is_empty();
     if rater.departure.is_some() && came_on {

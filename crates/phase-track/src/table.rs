@@ -172,11 +172,24 @@ pub fn table(
         frames: longest as u32,
         frame_rate: longest.saturating_sub(1) as f64 / (end - start),
         straight: true,
-        hidden: 0.0,
+        hidden: hidden(&lines, start, steps),
         missing: Missing::default(),
         deviations: rows.iter().map(|body| body.deviations.clone()).collect(),
     };
     Ok((event(options.layout, &sizes, &rows)?.with_tracking(&tracking), tracking))
+}
+
+/// Share of the poses that no line of the body is within a step of (s), so that they lie on the straight way
+/// between two others.
+fn hidden(lines: &[Vec<Line>], start: f64, steps: usize) -> f64 {
+    let is_hidden = |track: &Vec<Line>, t: usize| {
+        let seconds = start + t as f64 * STEP_VIDEO_SECONDS;
+        let near = |line: &Line| (line.0 - seconds).abs() <= STEP_VIDEO_SECONDS + 1e-6;
+        let after = track.partition_point(|line| line.0 < seconds);
+        !track[after.saturating_sub(1)..].iter().take(2).any(near)
+    };
+    let of = |track| (0..=steps).filter(|&t| is_hidden(track, t)).count();
+    lines.iter().map(of).sum::<usize>() as f64 / (lines.len() * (steps + 1)) as f64
 }
 
 /// Calls `take` with the number and the five columns of every line.
@@ -238,6 +251,9 @@ fn each_line(
     Ok(())
 }
 
+/// Ratio of the whole area of motion and that of 98 % of the places, above which the rest are mistakes.
+const FAR_AWAY: f64 = 100.0;
+
 /// Factor and offset that lead from coordinates, y up, into the arena.
 pub(crate) fn scale(
     lines: &[Vec<Line>],
@@ -264,6 +280,9 @@ pub(crate) fn scale(
     if !(extent > 0.0 && extent.is_finite()) {
         return Err(TrackError::Table("nothing in it moves, and no bounds are given".into()));
     }
+    if bounds.is_none() {
+        check_spread([0, 1].map(|k| places().map(|place| place[k]).collect()), extent)?;
+    }
     let factor = side / extent;
     let centre = [arena::CENTRE.x, arena::CENTRE.y].map(f64::from);
     let offset = [0, 1].map(|k| centre[k] - factor * 0.5 * (low[k] + high[k]));
@@ -277,6 +296,22 @@ pub(crate) fn scale(
         }
     }
     Ok((factor, offset))
+}
+
+/// Checks that the extent of a motion is not that of a few places far from all others, beside which the rest
+/// would be one point.
+fn check_spread(coordinates: [Vec<f64>; 2], extent: f64) -> Result<(), TrackError> {
+    let inner = coordinates.map(|mut values| {
+        values.sort_unstable_by(f64::total_cmp);
+        let cut = values.len() / 100;
+        values[values.len() - 1 - cut] - values[cut]
+    });
+    if inner[0].max(inner[1]) * FAR_AWAY < extent {
+        let rule =
+            "99 of 100 places lie within a hundredth of the whole area; leave out the others, or give bounds";
+        return Err(TrackError::Table(rule.into()));
+    }
+    Ok(())
 }
 
 pub(crate) fn rows(

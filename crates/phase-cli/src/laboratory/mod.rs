@@ -212,8 +212,9 @@ pub fn observe(arguments: &ObserveOptions, context: &Context) -> Result<(), CliE
     let text = &arguments.every;
     let every = text.strip_suffix('s').unwrap_or(text).parse::<f64>().ok();
     let every = every.and_then(|seconds| steps_of(seconds).ok()).filter(|&steps| steps > 0);
-    let every = every
-        .ok_or_else(|| CliError::Usage(format!("--every {text}: must be seconds, a multiple of 0.25")))?;
+    let every = every.ok_or_else(|| {
+        CliError::Usage(format!("--every {text}: must be seconds above 0, a multiple of 0.25"))
+    })?;
     interrupt::listen();
     let run = Observation {
         events: arguments.events.clone(),

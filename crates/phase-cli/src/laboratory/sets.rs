@@ -83,8 +83,16 @@ fn source(text: &str) -> Source {
 /// Any [`CliError`].
 pub fn matrices(arguments: &MatrixOptions, context: &Context) -> Result<(), CliError> {
     surroundings::check_itself(&arguments.out).map_err(CliError::Usage)?;
+    let sources: Vec<Source> = arguments.sources.iter().map(|text| source(text)).collect();
+    for Source { file, .. } in &sources {
+        if surroundings::is_in(file, &arguments.out) {
+            let (out, file) = (arguments.out.display(), file.display());
+            let rule = format!("has the input {file}, which a matrix might replace; choose another folder");
+            return Err(CliError::Usage(format!("--out {out}: {rule}")));
+        }
+    }
     let run = MatrixRun {
-        sources: arguments.sources.iter().map(|text| source(text)).collect(),
+        sources,
         ids: arguments.id.clone(),
         distance: arguments.distance,
         rank: match arguments.correlation {

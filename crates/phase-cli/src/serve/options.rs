@@ -2,7 +2,7 @@
 
 #[cfg(feature = "serve")]
 use crate::error::CliError;
-use crate::{effort::SimulationOptions, named::named};
+use crate::{address, effort::SimulationOptions, named::named};
 use clap::{Args, value_parser};
 use phase_dataset::splits::Split;
 use std::{net::SocketAddr, path::PathBuf};
@@ -18,7 +18,7 @@ pub struct Serve {
     pub port: Option<u16>,
     /// Name of this server for others, such as lab.example.org; requests by names that it does not have are
     /// refused
-    #[arg(long, value_name = "HOST")]
+    #[arg(long, value_name = "HOST", value_parser = address::host)]
     pub host: Option<String>,
     /// A proxy in front of this server names the client (X-Forwarded-For)
     #[arg(long)]

@@ -13,7 +13,7 @@ use phase_study::{
     export::{psych_ds, ratings},
     forms::Forms,
     record::Rater,
-    store::{Answers, backup as copy},
+    store::{Answers, StoreError, backup as copy},
 };
 use serde_json::json;
 use std::{
@@ -88,7 +88,12 @@ pub(super) fn backup(arguments: &BackupStudy) -> Result<(), CliError> {
     hidden.push(format!(".{}.part", std::process::id()));
     let part = out.with_file_name(hidden);
     private::options().write(true).create_new(true).open(&part).map_err(failed("write"))?;
-    let copied = copy(from, &part).map_err(CliError::Answers).and_then(|()| {
+    let of_copy = |error: StoreError| {
+        // Nobody knows the hidden file.
+        let file = if error.file == part { out.clone() } else { error.file };
+        CliError::Answers(StoreError { file, ..error })
+    };
+    let copied = copy(from, &part).map_err(of_copy).and_then(|()| {
         regular::open(&part)?.sync_all().map_err(failed("write"))?;
         fs::rename(&part, out).map_err(failed("name"))
     });

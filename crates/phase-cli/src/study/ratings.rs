@@ -1,16 +1,21 @@
 //! `study ratings`: what people answered to jsPsych's plugins, as `phase-ratings/1`.
 
 use super::options::CountRatings;
-use crate::error::CliError;
+use crate::{error::CliError, json_file};
 use phase_files::{FileError, Problem, atomic, regular, told};
 use phase_study::export::{Participant, participants, ratings_of};
 use serde_json::{Map, json};
-use std::path::Path;
+use std::{collections::BTreeSet, path::Path};
 
 pub(super) fn run(arguments: &CountRatings) -> Result<(), CliError> {
     let (out, allowed) = (&arguments.out, arguments.catch_failures_allowed as usize);
+    json_file::check("--out", out, &arguments.files)?;
     let mut all = Vec::new();
+    let mut read = BTreeSet::new();
     for file in &arguments.files {
+        if !read.insert(file.canonicalize().unwrap_or_else(|_| file.clone())) {
+            return Err(CliError::Usage(format!("{}: is named twice", file.display())));
+        }
         all.extend(of_file(file)?);
     }
     let counted = all.iter().filter(|one| one.failures <= allowed).count();

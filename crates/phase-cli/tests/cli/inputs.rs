@@ -29,7 +29,8 @@ fn no_output_replaces_an_input() {
     ];
     for &case in cases {
         let told = refuse(path, &[&eval[..], case].concat());
-        assert!(told.contains("--json") && told.contains("is an input file or in an input folder"), "{told}");
+        let rules = ["is an input file or in an input folder", "would lie in the dataset"];
+        assert!(told.contains("--json") && rules.iter().any(|rule| told.contains(rule)), "{told}");
     }
     for case in [
         &["aoi", "in.json", "--out", "in.json"][..],
@@ -39,7 +40,8 @@ fn no_output_replaces_an_input() {
         &["benchmark", "--data", "data", "--methods", "chance", "--figures", "data/manifest.json"],
     ] {
         let told = refuse(path, case);
-        assert!(told.contains("is an input file or in an input folder"), "{case:?}: {told}");
+        let rules = ["is an input file or in an input folder", "would lie in the dataset"];
+        assert!(rules.iter().any(|rule| told.contains(rule)), "{case:?}: {told}");
     }
     assert_eq!(tree(path), before, "nothing was written");
 }
@@ -159,6 +161,65 @@ fn names_of_clips_are_names_of_files() {
         assert!(told.contains("clips.json") && told.contains(rule), "{id:?}: {told}");
         assert!(!path.join("packed").exists(), "{id:?}");
     }
+}
+
+#[test]
+fn lists_of_clips_are_those_that_clip_writes() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path();
+    write_events(&path.join("in.json"), &[recording("one"), recording("two")]);
+    let clip = ["clip", "in.json", "--seconds", "1", "--size", "64", "--as", "mp4,gif", "--out", "clips"];
+    succeed(path, &clip);
+    succeed(path, &["pack", "clips", "--for", "psychopy", "--out", "packed"]);
+    let file = path.join("clips/clips.json");
+    let text = fs::read_to_string(&file).expect("a list");
+    let list: Value = serde_json::from_str(&text).expect("JSON");
+    for (pointer, wrong, told) in [
+        ("/format", json!("phase-clips/99"), "phase-clips/1"),
+        ("/clips/0/kind", json!("=HYPERLINK(1)"), "clips[0].kind"),
+        ("/clips/0/relation", json!("foo"), "clips[0].relation"),
+        ("/clips/0/steps", json!(0), "steps must be at least 1"),
+        ("/clips/0/first_step", json!(-3), "clips[0].first_step"),
+        ("/clips/0/video", json!("clips.json"), "video must be"),
+        ("/clips/0/video", list["clips"][1]["video"].clone(), "video must be"),
+        ("/clips", json!([]), "there is none"),
+    ] {
+        let mut edited = list.clone();
+        *edited.pointer_mut(pointer).expect(pointer) = wrong;
+        fs::write(&file, edited.to_string()).expect("written");
+        let said = fail(path, &["pack", "clips", "--for", "psychopy", "--out", "other"]);
+        assert!(said.contains("clips.json") && said.contains(told), "{pointer}: {said}");
+    }
+    fs::write(&file, text).expect("written");
+    fs::remove_file(path.join("clips").join(list["clips"][0]["gif"].as_str().expect("a file")))
+        .expect("removed");
+    let said = fail(path, &clip);
+    assert!(said.contains("which is gone"), "{said}");
+}
+
+#[test]
+fn raw_data_of_participants_stay() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path();
+    let trial = json!({
+        "trial_type": "phase-rating", "form": "relation", "event": "one", "response": { "relation": "friendly" },
+    });
+    let raw = json!([trial]).to_string();
+    fs::write(path.join("raw.json"), &raw).expect("written");
+    let before = tree(path);
+    let said = run(path, &["study", "ratings", "raw.json", "--out", "raw.json"]);
+    assert_eq!(said.status.code(), Some(2), "{}", text(&said.stderr));
+    let said = run(path, &["study", "ratings", "raw.json", "./raw.json", "--out", "ratings.json"]);
+    assert_eq!(said.status.code(), Some(2), "{}", text(&said.stderr));
+    fs::write(path.join("t.csv"), "id,x,y\na,1,n/a\nb,2,3\nc,4,5\n").expect("written");
+    let told = refuse(path, &["rdm", "t.csv", "--out", "."]);
+    assert!(told.contains("has the input t.csv"), "{told}");
+    let told = refuse(path, &["rdm", "t.csv", "--out", "matrices"]);
+    assert!(told.contains("t.csv: row 1: y is missing"), "{told}");
+    succeed(path, &["rdm", "t.csv:x", "--out", "matrices"]);
+    fs::remove_file(path.join("t.csv")).expect("removed");
+    fs::remove_dir_all(path.join("matrices")).expect("removed");
+    assert_eq!(tree(path), before);
 }
 
 #[test]

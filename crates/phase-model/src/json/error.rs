@@ -10,7 +10,7 @@ pub enum JsonError {
     #[error("is empty")]
     Empty,
     /// It is not text at all: an image, a video, an archive.
-    #[error("is not JSON text (byte {0} is not valid UTF-8)")]
+    #[error("is not text (byte {0} is not valid UTF-8)")]
     NotText(usize),
     /// It is text but not JSON.
     #[error("is not JSON: {what} in line {line}")]

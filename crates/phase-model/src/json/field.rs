@@ -67,6 +67,7 @@ impl<'a> Field<'a> {
         let Some(key) = self.object()?.keys().find(is_unknown) else { return Ok(()) };
         let rule = match nearest(key, keys) {
             Some(meant) => format!("is unknown; did you mean `{meant}`?"),
+            None if keys.is_empty() => "is unknown; there are no members".into(),
             None => format!("is unknown; expected are {}", keys.join(", ")),
         };
         Err(FieldError { field: self.path_of(key), rule })

@@ -227,7 +227,9 @@ impl RunError {
     #[must_use]
     pub fn fault(&self) -> Fault {
         match self {
-            Self::Output(error) if error.is_full() => Fault::Run,
+            Self::Output(error) | Self::Folder(FolderError::NotWritable(error)) if error.is_full() => {
+                Fault::Run
+            }
             Self::Track { source: VideoError::Interrupted, .. } | Self::Interrupted(_) | Self::Stopped(_) => {
                 Fault::Interruption
             }

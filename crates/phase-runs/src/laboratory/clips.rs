@@ -1,18 +1,18 @@
 //! Clips of events as files.
 
-use super::{Opened, open, unfit};
+use super::{Opened, open, tables::unusable, unfit};
 use crate::{error::RunError, interrupt, listener::Listener, parallel::make_all, source::EventInput, words};
 use gif::{Encoder, Repeat};
 use phase_dataset::manifest::{EventEntry, MANIFEST_FILE, Manifest};
-use phase_event::Recording;
+use phase_event::{Recording, check_id};
 use phase_files::{atomic, run::Run};
 use phase_laboratory::clip::{Clip, Cut, seconds_of};
-use phase_model::{PhysicsConfig, State, arena::FRAMES_PER_SECOND};
+use phase_model::{EventKind, PhysicsConfig, Relation, State, arena::FRAMES_PER_SECOND};
 use phase_render::{Frame, PaletteName, RenderError, SceneRenderer, Style, VideoEncoder};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 use std::{
-    collections::BTreeMap,
+    collections::{BTreeMap, BTreeSet},
     path::{Path, PathBuf},
 };
 
@@ -84,25 +84,63 @@ pub struct Clips {
     pub is_new: bool,
 }
 
+/// The list of clips, [`CLIPS_FILE`].
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct ClipList {
+    format: String,
+    run: Value,
+    pub(super) clips: Vec<Entry>,
+    left_out: Vec<String>,
+}
+
+impl ClipList {
+    /// Reads the list of a folder, which names one clip at least, each by another name.
+    pub(super) fn read(file: &Path) -> Result<Self, RunError> {
+        let list: Self = phase_files::json::read_format(file, CLIPS_FORMAT, "list of clips")?;
+        if list.clips.is_empty() {
+            return Err(unusable(file, "clips: there is none"));
+        }
+        let mut known = BTreeSet::new();
+        for Entry { id, .. } in &list.clips {
+            // Videos are named by it.
+            check_id(id).map_err(|rule| unusable(file, &format!("clips: id {rule}, not {id:?}")))?;
+            if !known.insert(id.to_ascii_lowercase()) {
+                return Err(unusable(file, &format!("clips: id {id} is that of two clips")));
+            }
+        }
+        for Entry { id, steps, video, .. } in &list.clips {
+            if *steps == 0 {
+                return Err(unusable(file, &format!("clip {id}: steps must be at least 1")));
+            }
+            if video.as_ref().is_some_and(|video| *video != format!("{id}.mp4")) {
+                return Err(unusable(file, &format!("clip {id}: video must be {id}.mp4")));
+            }
+        }
+        Ok(list)
+    }
+}
+
 /// An event's clip, as the list names it.
-#[derive(Serialize)]
-struct Entry {
-    id: String,
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Entry {
+    pub(super) id: String,
     source: String,
     first_step: usize,
-    steps: usize,
+    pub(super) steps: usize,
     seconds: f64,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    set: Option<String>,
-    kind: &'static str,
-    relation: &'static str,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) set: Option<String>,
+    pub(super) kind: EventKind,
+    pub(super) relation: Relation,
     agents: Value,
     event: String,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    video: Option<String>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    frames: Option<String>,
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) video: Option<String>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) frames: Option<String>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     gif: Option<String>,
 }
 
@@ -127,6 +165,15 @@ impl ClipRun {
         ]);
         let folder = match open(&self.out, CLIPS_FILE, &run)? {
             Opened::Done(done) => {
+                for file in files_of(&done) {
+                    if !self.out.join(file).exists() {
+                        let rule = format!("lists {file}, which is gone; make the clips in another folder");
+                        return Err(RunError::Usage(format!(
+                            "{}: {rule}",
+                            self.out.join(CLIPS_FILE).display()
+                        )));
+                    }
+                }
                 let clips = done["clips"].as_array().map_or(0, Vec::len);
                 let left_out = serde_json::from_value(done["left_out"].clone()).unwrap_or_default();
                 return Ok(Clips { clips, left_out, is_new: false });
@@ -152,10 +199,12 @@ impl ClipRun {
         let left_out: Vec<String> =
             made.iter().filter(|(_, entry)| entry.is_none()).map(|(id, _)| id.clone()).collect();
         let clips: Vec<Entry> = made.into_iter().filter_map(|(_, entry)| entry).collect();
-        let list = json!({ "format": CLIPS_FORMAT, "run": run, "clips": clips, "left_out": left_out });
+        let count = clips.len();
+        let run = run.value().clone();
+        let list = ClipList { format: CLIPS_FORMAT.into(), run, clips, left_out: left_out.clone() };
         atomic::write_json(&self.out.join(CLIPS_FILE), &list)?;
         folder.finish()?;
-        Ok(Clips { clips: clips.len(), left_out, is_new: true })
+        Ok(Clips { clips: count, left_out, is_new: true })
     }
 
     fn clip(&self, recording: &Recording, sets: &BTreeMap<String, String>) -> Result<Entry, RunError> {
@@ -184,8 +233,8 @@ impl ClipRun {
             steps: clip.window.steps,
             seconds: seconds_of(clip.window.steps),
             set: sets.get(&recording.id).cloned(),
-            kind: clip.kind.name(),
-            relation: clip.relation.name(),
+            kind: clip.kind,
+            relation: clip.relation,
             agents: json!(clip.agents),
             id,
             event,
@@ -198,6 +247,12 @@ impl ClipRun {
     fn style(&self) -> Style {
         Style { grips: !self.plain, palette: self.palette.palette(), ..Style::with_side(self.side) }
     }
+}
+
+/// The files and folders that a list of clips names.
+fn files_of(list: &Value) -> impl Iterator<Item = &str> {
+    let clips = list["clips"].as_array().into_iter().flatten();
+    clips.flat_map(|clip| ["event", "video", "frames", "gif"].map(|form| clip[form].as_str())).flatten()
 }
 
 /// The pictures of one clip.

@@ -3,7 +3,7 @@
 
 use super::{
     create,
-    tables::{Sheet, Table, unknown_form, unusable},
+    tables::{MISSING, Sheet, Table, unknown_form, unusable},
 };
 use crate::{error::RunError, listener::Listener};
 use phase_eval::{predictions, ratings};
@@ -300,12 +300,19 @@ fn table(file: &Path, prefix: &str) -> Result<Features, RunError> {
     for (k, row) in sheet.rows.iter().enumerate() {
         let values = features.entry(row[id].clone()).or_default();
         for &column in &chosen {
-            // What there is not, such as a goal for an object that is not there, has no probability.
-            let cell = &row[column];
-            let value = if cell == super::tables::MISSING { Some(0.0) } else { cell.parse::<f64>().ok() };
-            let value = value.filter(|value| value.is_finite()).ok_or_else(|| {
-                unusable(file, &format!("row {}: {} {cell:?} is no number", k + 1, sheet.names[column]))
-            })?;
+            let (name, cell) = (&sheet.names[column], &row[column]);
+            let value = match cell.as_str() {
+                // A goal for an object that is not there has no probability.
+                MISSING if name.contains("_wants_") => Some(0.0),
+                MISSING => {
+                    let rule = format!("row {}: {name} is missing; choose other columns or rows", k + 1);
+                    return Err(unusable(file, &rule));
+                }
+                _ => cell.parse::<f64>().ok(),
+            };
+            let value = value
+                .filter(|value| value.is_finite())
+                .ok_or_else(|| unusable(file, &format!("row {}: {name} {cell:?} is no number", k + 1)))?;
             values.push(value);
         }
     }

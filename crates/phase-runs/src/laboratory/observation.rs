@@ -178,7 +178,9 @@ impl Observation {
     /// SIMPLE with the minds that were asked for.
     fn simple(&self) -> Result<Simple, RunError> {
         if self.method == ObservingMethod::IntentNetwork && self.minds != MindChoice::default() {
-            return Err(RunError::Usage("--minds: method \"intent-network\" imagines no minds".into()));
+            return Err(RunError::Usage(
+                "--method intent-network: imagines no minds, about which there are options".into(),
+            ));
         }
         Ok(self.minds.imagined_by(Simple::bundled()?))
     }
@@ -276,8 +278,9 @@ impl Observation {
         courses: &[Course],
         presentations: Option<&[Presentation]>,
     ) -> Result<Vec<String>, RunError> {
-        let shown: Vec<(&Course, f64)> = match presentations {
-            None => courses.iter().map(|course| (course, 0.0)).collect(),
+        // Each with its onset, and the time for which it was shown (s).
+        let shown: Vec<(&Course, f64, f64)> = match presentations {
+            None => courses.iter().map(|course| (course, 0.0, f64::INFINITY)).collect(),
             Some(presentations) => {
                 let of = |shown: &Presentation| {
                     let course = courses.iter().find(|course| shown.is_of(&course.id));
@@ -288,7 +291,7 @@ impl Observation {
                             &format!("stim_file {}: there is no event of that name", shown.stimulus),
                         )
                     };
-                    Ok((course.ok_or_else(unknown)?, shown.onset))
+                    Ok((course.ok_or_else(unknown)?, shown.onset, shown.duration.unwrap_or(f64::INFINITY)))
                 };
                 presentations.iter().map(of).collect::<Result<_, RunError>>()?
             }
@@ -312,8 +315,8 @@ impl Observation {
         let chunked = |columns: &[(String, String, String)], cells: &dyn Fn(&Chunk) -> Vec<String>| {
             let mut table = started();
             table.columns.extend_from_slice(columns);
-            for (course, onset) in &shown {
-                for chunk in &course.chunks {
+            for (course, onset, seconds) in &shown {
+                for chunk in course.chunks.iter().filter(|chunk| chunk.onset < *seconds) {
                     table.rows.push(begun(&course.id, onset + chunk.onset, chunk.duration, cells(chunk)));
                 }
             }
@@ -329,14 +332,10 @@ impl Observation {
         let mut frames = started();
         frames.columns.extend(motion.iter().cloned());
         let frame_seconds = 1.0 / f64::from(FRAMES_PER_SECOND);
-        for (course, onset) in &shown {
-            for (k, values) in course.frames.iter().enumerate() {
-                frames.rows.push(begun(
-                    &course.id,
-                    onset + k as f64 * frame_seconds,
-                    frame_seconds,
-                    numbers(values),
-                ));
+        for (course, onset, seconds) in &shown {
+            let began = |k: usize| k as f64 * frame_seconds;
+            for (k, values) in course.frames.iter().enumerate().take_while(|(k, _)| began(*k) < *seconds) {
+                frames.rows.push(begun(&course.id, onset + began(k), frame_seconds, numbers(values)));
             }
         }
         let tables = [
@@ -371,8 +370,13 @@ fn begun(id: &str, onset: f64, duration: f64, cells: Vec<String>) -> Vec<String>
 /// A time at which a video was shown.
 struct Presentation {
     onset: f64,
+    /// How long it was shown (s), if the table says so.
+    duration: Option<f64>,
     stimulus: String,
 }
+
+/// Greatest size of times in tables (s): thirty years.
+const MOST_SECONDS: f64 = 1e9;
 
 impl Presentation {
     fn read(path: &Path) -> Result<Vec<Self>, RunError> {
@@ -380,16 +384,31 @@ impl Presentation {
         let column =
             |name: &str| sheet.column(name).ok_or_else(|| unusable(path, &format!("has no column {name}")));
         let (onset, stimulus) = (column("onset")?, column("stim_file")?);
+        let duration = sheet.column("duration");
         let of = |(k, row): (usize, &Vec<String>)| {
-            let time = row[onset].parse::<f64>().ok().filter(|time| time.is_finite());
-            let time = time.ok_or_else(|| {
-                unusable(path, &format!("row {}: onset {:?} is no number", k + 1, row[onset]))
-            })?;
-            Ok(Self { onset: time, stimulus: row[stimulus].clone() })
+            let seconds = |column: usize, least: f64| {
+                let time = row[column].parse::<f64>().ok();
+                time.filter(|time| (least..=MOST_SECONDS).contains(time)).ok_or_else(|| {
+                    let (name, cell) = (&sheet.names[column], &row[column]);
+                    let rule =
+                        format!("row {}: {name} must be {least} to {MOST_SECONDS} s, not {cell:?}", k + 1);
+                    unusable(path, &rule)
+                })
+            };
+            let told = duration.filter(|&column| row[column] != MISSING);
+            Ok(Self {
+                onset: seconds(onset, -MOST_SECONDS)?,
+                duration: told.map(|column| seconds(column, 0.0)).transpose()?,
+                stimulus: row[stimulus].clone(),
+            })
         };
         // Rests and responses have no stimulus.
         let shown = sheet.rows.iter().enumerate().filter(|(_, row)| row[stimulus] != MISSING);
-        shown.map(of).collect()
+        let shown: Vec<Self> = shown.map(of).collect::<Result<_, RunError>>()?;
+        if shown.is_empty() {
+            return Err(unusable(path, "shows no video: no row has a stim_file"));
+        }
+        Ok(shown)
     }
 
     /// Whether this is the video of an event, or of a clip of it.

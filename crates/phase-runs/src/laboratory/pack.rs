@@ -1,9 +1,12 @@
 //! Packs of videos for experiment platforms.
 
-use super::{CLIPS_FILE, tables::unusable};
+use super::{
+    CLIPS_FILE,
+    clips::{ClipList, Entry},
+    tables::unusable,
+};
 use crate::{error::RunError, listener::Listener};
 use phase_dataset::manifest::{MANIFEST_FILE, Manifest};
-use phase_event::check_id;
 use phase_files::{new_folder::NewFolder, regular};
 use phase_laboratory::{
     counterbalance::{Stimulus, lists},
@@ -11,14 +14,9 @@ use phase_laboratory::{
 };
 use phase_model::{
     arena::{STEP_VIDEO_SECONDS, SUBSTEPS},
-    path::RelativePath,
     random::{Purpose, stream},
 };
-use serde_json::Value;
-use std::{
-    collections::BTreeSet,
-    path::{Path, PathBuf},
-};
+use std::path::{Path, PathBuf};
 
 /// The question of a pack, as raters of studies read it, and its answers.
 const QUESTION: Question<'static> = Question {
@@ -185,33 +183,17 @@ fn trial(id: &str, steps: usize, kind: &str, relation: &str, set: Option<&str>) 
 }
 
 fn of_clips(folder: &Path, file: &Path) -> Result<Vec<Item>, RunError> {
-    let list: Value = phase_files::json::read(file)?;
-    let clips = list["clips"].as_array().ok_or_else(|| unusable(file, "clips: must be a list"))?;
-    let mut known = BTreeSet::new();
-    let of = |clip: &Value| {
-        let text = |name: &str| {
-            clip[name].as_str().ok_or_else(|| unusable(file, &format!("clips: {name} must be a text")))
-        };
-        let id = text("id")?;
-        // Videos are named by it.
-        check_id(id).map_err(|rule| unusable(file, &format!("clips: id {rule}, not {id:?}")))?;
-        if !known.insert(id.to_ascii_lowercase()) {
-            return Err(unusable(file, &format!("clips: id {id} is that of two clips")));
-        }
-        let video = clip["video"]
-            .as_str()
+    let of = |clip: Entry| {
+        let Entry { id, video, .. } = &clip;
+        let video = video
+            .as_ref()
             .ok_or_else(|| unusable(file, &format!("clip {id} has no video; cut clips as mp4")))?;
-        let video =
-            RelativePath::new(video).map_err(|rule| unusable(file, &format!("clip {id}: video {rule}")))?;
-        let steps = clip["steps"]
-            .as_u64()
-            .ok_or_else(|| unusable(file, &format!("clip {id}: steps must be a whole number")))?;
-        let set = clip["set"].as_str();
-        let mut trial = trial(id, steps as usize, text("kind")?, text("relation")?, set);
-        if !clip["frames"].is_null() {
-            trial.frames = steps as usize * SUBSTEPS;
+        let place = folder.join(video);
+        let mut trial = trial(id, clip.steps, clip.kind.name(), clip.relation.name(), clip.set.as_deref());
+        if clip.frames.is_some() {
+            trial.frames = clip.steps * SUBSTEPS;
         }
-        Ok(Item { place: video.below(folder), trial, set: set.map(str::to_owned) })
+        Ok(Item { place, trial, set: clip.set })
     };
-    clips.iter().map(of).collect()
+    ClipList::read(file)?.clips.into_iter().map(of).collect()
 }

@@ -90,6 +90,13 @@ impl From<rusqlite::Error> for StoreProblem {
 }
 
 impl StoreError {
+    /// Whether the disk is full: no fault of whoever chose the place.
+    #[must_use]
+    pub fn is_full(&self) -> bool {
+        matches!(&self.problem, StoreProblem::Database(error)
+            if error.sqlite_error_code() == Some(rusqlite::ErrorCode::DiskFull))
+    }
+
     pub(super) fn of(path: &Path, error: rusqlite::Error) -> Self {
         Self { file: path.to_owned(), problem: error.into() }
     }

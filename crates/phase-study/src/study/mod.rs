@@ -144,7 +144,9 @@ impl Study {
         let wrong = |name: &str, rule: String| StudyError::Field(FieldError { field: name.into(), rule });
         let mut kept = BTreeMap::new();
         for name in &self.config.parameters {
-            let Some(value) = parameters.get(name).filter(|value| !value.is_empty()) else { continue };
+            let Some(value) = parameters.get(name).filter(|value| !value.trim().is_empty()) else {
+                continue;
+            };
             if value.chars().count() > LONGEST_PARAMETER || value.chars().any(char::is_control) {
                 return Err(wrong(name, format!("must be one line of at most {LONGEST_PARAMETER} letters")));
             }
