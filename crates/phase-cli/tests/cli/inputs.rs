@@ -202,7 +202,8 @@ fn raw_data_of_participants_stay() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path();
     let trial = json!({
-        "trial_type": "phase-rating", "form": "relation", "event": "one", "response": { "relation": "friendly" },
+        "trial_type": "phase-rating", "form": "relation", "event": "one",
+        "response": { "relation": "friendly" },
     });
     let raw = json!([trial]).to_string();
     fs::write(path.join("raw.json"), &raw).expect("written");

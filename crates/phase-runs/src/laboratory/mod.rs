@@ -8,6 +8,7 @@ mod matrices;
 mod observation;
 mod pack;
 mod pairing;
+mod presentation;
 mod tables;
 
 pub use areas::AreaRun;

@@ -5,7 +5,8 @@ use super::{
     answers::{answer_columns, answers, beliefs},
     clips::source_digest,
     open,
-    tables::{MISSING, Sheet, Table, unusable},
+    presentation::Presentation,
+    tables::{MISSING, Table, unusable},
     unfit,
 };
 use crate::{
@@ -365,54 +366,4 @@ fn started() -> Table {
 fn begun(id: &str, onset: f64, duration: f64, cells: Vec<String>) -> Vec<String> {
     let time = |seconds: f64| format!("{:.3}", seconds);
     [time(onset), time(duration), id.to_owned(), format!("{id}.mp4")].into_iter().chain(cells).collect()
-}
-
-/// A time at which a video was shown.
-struct Presentation {
-    onset: f64,
-    /// How long it was shown (s), if the table says so.
-    duration: Option<f64>,
-    stimulus: String,
-}
-
-/// Greatest size of times in tables (s): thirty years.
-const MOST_SECONDS: f64 = 1e9;
-
-impl Presentation {
-    fn read(path: &Path) -> Result<Vec<Self>, RunError> {
-        let sheet = Sheet::read(path)?;
-        let column =
-            |name: &str| sheet.column(name).ok_or_else(|| unusable(path, &format!("has no column {name}")));
-        let (onset, stimulus) = (column("onset")?, column("stim_file")?);
-        let duration = sheet.column("duration");
-        let of = |(k, row): (usize, &Vec<String>)| {
-            let seconds = |column: usize, least: f64| {
-                let time = row[column].parse::<f64>().ok();
-                time.filter(|time| (least..=MOST_SECONDS).contains(time)).ok_or_else(|| {
-                    let (name, cell) = (&sheet.names[column], &row[column]);
-                    let rule =
-                        format!("row {}: {name} must be {least} to {MOST_SECONDS} s, not {cell:?}", k + 1);
-                    unusable(path, &rule)
-                })
-            };
-            let told = duration.filter(|&column| row[column] != MISSING);
-            Ok(Self {
-                onset: seconds(onset, -MOST_SECONDS)?,
-                duration: told.map(|column| seconds(column, 0.0)).transpose()?,
-                stimulus: row[stimulus].clone(),
-            })
-        };
-        // Rests and responses have no stimulus.
-        let shown = sheet.rows.iter().enumerate().filter(|(_, row)| row[stimulus] != MISSING);
-        let shown: Vec<Self> = shown.map(of).collect::<Result<_, RunError>>()?;
-        if shown.is_empty() {
-            return Err(unusable(path, "shows no video: no row has a stim_file"));
-        }
-        Ok(shown)
-    }
-
-    /// Whether this is the video of an event, or of a clip of it.
-    fn is_of(&self, id: &str) -> bool {
-        Path::new(&self.stimulus).file_stem().is_some_and(|stem| stem == id)
-    }
 }
