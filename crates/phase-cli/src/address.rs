@@ -28,9 +28,21 @@ pub fn folder(text: &str) -> Result<String, String> {
     }
 }
 
+/// Reads the name of a server, which a port may follow.
+///
+/// # Errors
+/// The rule, unless it has letters, digits, `-`, `.` and, around and in an address, `[`, `]` and `:` alone.
+pub fn host(text: &str) -> Result<String, String> {
+    let is_part = |c: char| c.is_ascii_alphanumeric() || "-.:[]".contains(c);
+    if text.contains(|c: char| c.is_ascii_alphanumeric()) && text.chars().all(is_part) {
+        return Ok(text.to_owned());
+    }
+    Err("must be the name of a server such as lab.example.org, without https:// and paths".into())
+}
+
 #[cfg(test)]
 mod tests {
-    use super::{folder, page};
+    use super::{folder, host, page};
 
     #[test]
     fn an_address_has_a_scheme_and_a_host() {
@@ -45,16 +57,14 @@ mod tests {
             assert!(folder(text).is_err_and(|rule| rule.contains("query")), "{text:?}");
         }
     }
-}
 
-/// Reads the name of a server, which a port may follow.
-///
-/// # Errors
-/// The rule, unless it has letters, digits, `-`, `.` and, around and in an address, `[`, `]` and `:` alone.
-pub fn host(text: &str) -> Result<String, String> {
-    let is_part = |c: char| c.is_ascii_alphanumeric() || "-.:[]".contains(c);
-    if text.contains(|c: char| c.is_ascii_alphanumeric()) && text.chars().all(is_part) {
-        return Ok(text.to_owned());
+    #[test]
+    fn a_host_is_a_name() {
+        for good in ["lab.example.org", "localhost", "127.0.0.1:8000", "[::1]"] {
+            assert_eq!(host(good), Ok(good.to_owned()));
+        }
+        for bad in ["", "http://a/b", "a b", ".", "\u{1b}"] {
+            assert!(host(bad).is_err(), "{bad:?}");
+        }
     }
-    Err("must be the name of a server such as lab.example.org, without https:// and paths".into())
 }

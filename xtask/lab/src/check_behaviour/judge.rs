@@ -177,7 +177,7 @@ impl Case<'_> {
     }
 
     fn chase(&self, effect: Option<Effect>) -> Assessment {
-        let chaser = Pursuit::of(self.track, AgentId::ZERO);
+        let chaser = Pursuit::by_way(self.track, AgentId::ZERO, &Map::new(self.scene.layout));
         let fleer = Pursuit::of(self.track, AgentId::ONE);
         let chases = 2 * chaser.towards >= chaser.moving && chaser.moving >= MIN_VISIBLE_STEPS;
         let flees = effect.is_some_and(|effect| effect.hindered());

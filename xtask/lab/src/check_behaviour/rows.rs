@@ -87,7 +87,9 @@ impl Criterion {
             Self::Help => "goal reached only with the helper, or at least a tenth sooner",
             Self::StayOut => "goal reached, not a tenth later, the other never touched",
             Self::Hinder(_) => "goal missed only with the hinderer, or reached at least a tenth later",
-            Self::Chase => "chaser heads for the other, flight delays the catch by a tenth or prevents it",
+            Self::Chase => {
+                "chaser heads for the other by its way there, flight delays the catch by a tenth or prevents it"
+            }
             Self::Compete => "both have had the object, and one won or both pulled for 5 steps",
             Self::Unseen => "the object held for 3 steps, more than half of them unseen by the victim",
             Self::WrongPlace(true) => "the place that the object has left seen before the object",
