@@ -3,6 +3,7 @@
 use crate::{
     error::CliError,
     output::{print_json, print_result},
+    surroundings::STDOUT,
 };
 use clap::Args;
 use phase_files::atomic;
@@ -11,9 +12,6 @@ use std::{
     fmt::Display,
     path::{Path, PathBuf},
 };
-
-/// The name that means stdout where a file may be named.
-const STDOUT: &str = "-";
 
 /// The option `--json`.
 #[derive(Args, Clone, Debug, Default)]

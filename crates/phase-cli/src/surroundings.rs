@@ -5,6 +5,8 @@ use clap::ArgMatches;
 use phase_dataset::manifest::{DATASET_FORMAT, MANIFEST_FILE};
 use std::path::{Path, PathBuf};
 
+/// The name that means stdout where a file may be named.
+pub(crate) const STDOUT: &str = "-";
 /// The options that name files or folders of results.
 const OUTPUTS: [&str; 5] = ["out", "json", "figures", "make", "shapes"];
 
@@ -19,6 +21,9 @@ pub(crate) fn check(matches: &ArgMatches) -> Result<(), String> {
     }
     for option in OUTPUTS {
         let Ok(Some(out)) = leaf.try_get_one::<PathBuf>(option) else { continue };
+        if out == Path::new(STDOUT) {
+            continue;
+        }
         if let Some(parent) = out.ancestors().skip(1).find_map(place) {
             outside(option, out, &parent)?;
         }

@@ -22,9 +22,6 @@ pub enum ObservedError {
     /// A position, velocity or angle is not finite.
     #[error("row {0} of an observed event has a number that is not finite")]
     NotFinite(usize),
-    /// A body is outside the arena.
-    #[error("row {0} of an observed event has a body outside the arena (x 6 to 26, y 2 to 22)")]
-    Outside(usize),
     /// A body is faster or turned farther than any can be.
     #[error(
         "row {0} of an observed event has a body faster than {MAX_ROW_SPEED:.0} u/s or an angle beyond \
@@ -44,8 +41,6 @@ pub(crate) fn is_possible(velocity: Vec2, angle: f32) -> bool {
 fn check(index: usize, row: &[Body]) -> Result<(), ObservedError> {
     if !row.iter().all(Body::is_finite) {
         Err(ObservedError::NotFinite(index))
-    } else if !row.iter().all(|body| arena::contains(body.position)) {
-        Err(ObservedError::Outside(index))
     } else if !row.iter().all(|body| is_possible(body.velocity, body.angle)) {
         Err(ObservedError::Beyond(index))
     } else {

@@ -53,8 +53,8 @@ impl fmt::Display for EventWarning {
             }
             Self::Velocities { moved, said } => write!(
                 formatter,
-                "trajectory: bodies move {moved:.1} u in all, but their velocities say {said:.1} u; vx and vy are \
-                 per second of physics, of which a step lasts 1/12"
+                "trajectory: bodies move {moved:.1} u in all, but their velocities say {said:.1} u; vx and \
+                 vy are per second of physics, of which a step lasts 1/12"
             ),
         }
     }

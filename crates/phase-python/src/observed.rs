@@ -273,16 +273,20 @@ fn read_rows(rows: &Bound<'_, PyArray3<f32>>, entities: usize) -> PyResult<Vec<[
         let numbers: Vec<_> =
             row.outer_iter().map(|body| core::array::from_fn(|column| body[column])).collect();
         let bodies = bodies(&numbers);
-        let outside = |body: &Body| body.is_finite() && !arena::contains(body.position);
-        if let Some(k) = bodies[..entities].iter().position(outside) {
-            let Vec2 { x, y } = bodies[k].position;
-            return Err(raise(format!(
-                "trajectory[{t}, {k}] must lie inside the arena (x 6 to 26, y 2 to 22), not at ({x}, {y})"
-            )));
-        }
+        check_inside(&bodies[..entities], |k| format!("trajectory[{t}, {k}]"))?;
         read.push(bodies);
     }
     Ok(read)
+}
+
+/// Checks that bodies, of which `name` names each by its index, are in the arena. Numbers that are not finite
+/// are left to others.
+pub(crate) fn check_inside(bodies: &[Body], name: impl Fn(usize) -> String) -> PyResult<()> {
+    let outside = |body: &Body| body.is_finite() && !arena::contains(body.position);
+    let Some(k) = bodies.iter().position(outside) else { return Ok(()) };
+    let Vec2 { x, y } = bodies[k].position;
+    let name = name(k);
+    Err(raise(format!("{name} must lie inside the arena (x 6 to 26, y 2 to 22), not at ({x}, {y})")))
 }
 
 /// The bodies of a row.

@@ -3,7 +3,7 @@
 use crate::{
     arrays::{reading, rows},
     error::raise,
-    observed::{Observed, ROW_COLUMNS, bodies},
+    observed::{Observed, ROW_COLUMNS, bodies, check_inside},
 };
 use core::ops::ControlFlow;
 use numpy::PyArray2;
@@ -122,5 +122,7 @@ impl PythonObserver {
 fn read_row(row: &Bound<'_, PyArray2<f32>>, entities: usize) -> PyResult<Vec<[f32; ROW_COLUMNS]>> {
     let row = reading("row", row, &[entities, ROW_COLUMNS])?;
     let numbers = rows(&row);
-    Ok(numbers.as_chunks().0.to_vec())
+    let read = numbers.as_chunks().0.to_vec();
+    check_inside(&bodies(&read)[..entities], |k| format!("row[{k}]"))?;
+    Ok(read)
 }

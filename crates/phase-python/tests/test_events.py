@@ -115,8 +115,14 @@ def test_an_observer_ends_where_inference_does(event):
     assert observer.inference()["relation"] == at_once["relation"]
     with pytest.raises(phase.PhaseError):
         observer.push(event.trajectory[12][:2])
-    with pytest.raises(phase.PhaseError):
+    with pytest.raises(phase.PhaseError, match="not finite"):
         observer.push(np.full((3, 5), np.nan))
+    with pytest.raises(phase.PhaseError, match=r"row\[0\] must lie inside the arena"):
+        observer.push(np.zeros((3, 5)))
+    spinning = np.array(event.trajectory[12])
+    spinning[0, 4] = 1e30
+    with pytest.raises(phase.PhaseError, match="an angle beyond 100000 rad"):
+        observer.push(spinning)
 
 
 def test_forecasts(event):
@@ -406,7 +412,8 @@ def test_velocities_of_another_unit_are_warned_of(tmp_path):
     body = [{"size_level": 0}] * 2
     of_agent = [rows[:, agent].tolist() for agent in (0, 1)]
     trajectory = {"columns": ["x", "y", "vx", "vy", "angle"], "agents": of_agent, "objects": []}
-    one = {"id": "mine", "layout": {"base": 0, "flip": None}, "agents": body, "objects": [], "trajectory": trajectory}
+    one = {"id": "mine", "layout": {"base": 0, "flip": None}, "agents": body, "objects": []}
+    one["trajectory"] = trajectory
     (tmp_path / "seen.json").write_text(json.dumps({"format": "phase-events/1", "events": [one]}))
     with pytest.warns(UserWarning, match="per second of physics"):
         phase.load_observed(tmp_path / "seen.json")

@@ -26,7 +26,7 @@ fn one(config: &StudyConfig, forms: &Forms, rater: &Rater) -> Result<(), String>
     let times = rater.trials.iter().filter_map(|trial| trial.given.as_ref()).map(|given| given.at);
     let times: Vec<Millis> = times.chain(pages.into_iter().flatten()).collect();
     if times.iter().chain([&rater.joined]).any(|at| !(0..=LATEST).contains(at)) {
-        return Err("has a time that is not between 1970 and 2100".into());
+        return Err("has a time before 1970 or after 2100".into());
     }
     // A clock that is set may go back for a while.
     if times.iter().any(|at| at + LONGEST_BACK < rater.joined) {

@@ -61,8 +61,9 @@ fn comments(program: &str) -> Vec<String> {
         format!("size_level, the radius of a body: {sizes}. strength_level, the greatest force: {strengths}."),
         format!("Landmarks: {}.", landmarks.join(", ")),
         "objects: none to two, light blue and pink; an object that is too heavy for one agent needs both.".into(),
-        "trajectory: one row for each body, its start: x and y in u, vx and vy in u/s, angle in radians. vx and vy \
-         are per second of physics, of which a step lasts 1/12. Bodies should overlap neither each other nor walls."
+        "trajectory: one row for each body, its start: x and y in u, vx and vy in u/s, angle in radians. \
+         vx and vy are per second of physics, of which a step lasts 1/12. Bodies should overlap neither each \
+         other nor walls."
             .into(),
     ]
 }

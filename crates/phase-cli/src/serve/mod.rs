@@ -60,6 +60,9 @@ pub fn run(arguments: &Serve, context: &Context) -> Result<(), CliError> {
         game: GameSettings { simulation, ..default },
         seed: arguments.seed.unwrap_or(SEED),
     };
+    if let Some(rounds) = arguments.rounds.map(usize::from).filter(|&rounds| rounds > scenes.len()) {
+        context.note(format!("note: --rounds {rounds}: there are {} scenes, one a round", scenes.len()));
+    }
     let mut server = Server::bind(settings, practice, scenes, wasm)?;
     server.open_studies(&arguments.studies)?;
     if wasm.is_none() && !only_studies {

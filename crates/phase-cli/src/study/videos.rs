@@ -89,6 +89,10 @@ pub(super) fn stimuli(
             return Err(CliError::Usage(format!("{}: holds no videos", folder.display())));
         }
         if let Some(count) = arguments.sample {
+            if stimuli.len() < count as usize {
+                let (folder, found) = (folder.display(), stimuli.len());
+                context.note(format!("note: {folder}: has {found} videos, fewer than --sample {count}"));
+            }
             stimuli = sample(stimuli, count as usize, arguments.seed, k as u64);
         }
         all.extend(stimuli);

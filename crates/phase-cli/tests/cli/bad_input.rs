@@ -110,8 +110,8 @@ fn rubbish_instead_of_events() {
     let with_nan = good.replacen("8.5", "NaN", 1);
     let cases: &[(Vec<u8>, &[&str])] = &[
         (b"".to_vec(), &["empty"]),
-        (b"\x00\x00\x00\x20ftypisom\xff\xff\xff".to_vec(), &["not JSON"]),
-        (b"\x89PNG\r\n\x1a\n".to_vec(), &["not JSON"]),
+        (b"\x00\x00\x00\x20ftypisom\xff\xff\xff".to_vec(), &["not text"]),
+        (b"\x89PNG\r\n\x1a\n".to_vec(), &["not text"]),
         (b"id;x;y\n".to_vec(), &["not JSON", "line 1"]),
         (good.as_bytes()[..good.len() - 40].to_vec(), &["truncated", "line 1"]),
         (with_nan.into_bytes(), &["NaN", "finite", "line 1"]),

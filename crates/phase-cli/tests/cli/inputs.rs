@@ -73,6 +73,11 @@ fn no_result_lies_in_a_dataset() {
         assert!(told.contains("--out data") && told.contains("would lie in the dataset"), "{case:?}: {told}");
     }
     assert_eq!(tree(path), before, "nothing was written");
+    succeed(&path.join("data"), &["verify", ".", "--json"]);
+    let eval = ["eval", "goals", "--method", "chance", "--events", ".", "--out", "../scores", "--json"];
+    succeed(&path.join("data"), &eval);
+    fs::remove_dir_all(path.join("scores")).expect("removed");
+    assert_eq!(tree(path), before, "stdout is no file");
     // Other programs have files of the manifest's name.
     succeed(path, &["rdm", "t.csv", "--out", "web/matrices"]);
 }

@@ -156,10 +156,8 @@ fn velocities_are_per_second_of_physics() {
     let of_video = walk(20, 2.0);
     assert_eq!(
         of_video.iter().map(ToString::to_string).collect::<Vec<_>>(),
-        [
-            "trajectory: bodies move 10.0 u in all, but their velocities say 3.3 u; vx and vy are per second of \
-          physics, of which a step lasts 1/12"
-        ]
+        ["trajectory: bodies move 10.0 u in all, but their velocities say 3.3 u; vx and vy are per second \
+          of physics, of which a step lasts 1/12"]
     );
     assert_eq!(walk(20, 0.0).len(), 1);
     assert_eq!(walk(8, 2.0), [], "4 u are too few to tell");

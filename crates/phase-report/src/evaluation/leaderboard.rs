@@ -138,8 +138,8 @@ pub fn leaderboard(benchmark: &Benchmark, scores: &Scores, sources: &BTreeMap<St
          100 recordings.\n\n\
          ## Goals and relations\n\n{goals}\n\
          Sorted by goal accuracy on generated events; methods without that score by goal accuracy on recordings. A minimal-pair \
-         set counts as correct only if all its goals and relations are. Goals of `socialgnn`, which infers relations alone, \
-         are those of `chance`.\n\n\
+         set counts as correct only if all its goals and relations are. Goals of `socialgnn`, which infers \
+         relations alone, are those of `chance`.\n\n\
          ## Trajectories\n\n{trajectories}\n\
          Displacement errors of the agents in u, sorted by ADE.\n\n{}\
          ## Submitted methods\n\n{}",

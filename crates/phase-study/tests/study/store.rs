@@ -183,13 +183,15 @@ fn answers_fit_the_configuration() {
         ("UPDATE answer SET response_time = -5 WHERE number = 2", "in trial 3: response_time"),
         ("UPDATE answer SET plays = 9223372036854775807 WHERE number = 2", "in trial 3: plays"),
         ("UPDATE answer SET at = -9223372036854775808", "before 1970"),
+        ("UPDATE answer SET at = 9223370000000000000", "after 2100"),
+        ("UPDATE rater SET joined = joined + 90000000", "before they came"),
         ("DELETE FROM answer WHERE number = 1", "before the one that comes before"),
         ("DELETE FROM page WHERE page = 'consent'", "not agreed"),
         ("INSERT INTO departure VALUES (1, 5, 'withdrew')", "has left"),
     ] {
         let whole = fs::read(&path).expect("bytes");
         let other = Connection::open(&path).expect("a database");
-        let dropped: Vec<String> = ["answer_stays", "answer_is_kept", "page_is_kept"]
+        let dropped: Vec<String> = ["answer_stays", "answer_is_kept", "page_is_kept", "rater_stays"]
             .map(|trigger| format!("DROP TRIGGER {trigger};"))
             .into();
         other.execute_batch(&(dropped.concat() + meddled)).expect("meddled");

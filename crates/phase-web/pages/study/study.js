@@ -145,7 +145,8 @@ const PAGES = {
   instructions: ({ instructions }) => put("Instructions", ...paragraphs(instructions), button("Begin", () => send("instructions", {}))),
   trial,
   done,
-  declined: () => put("You do not take part", element("p", {}, "No answers were stored. You can close this page.")),
+  declined: () =>
+    put("You do not take part", element("p", {}, "No answers were stored. You can close this page.")),
   withdrawn: () => put("You have withdrawn", element("p", {}, "Your answers were deleted. You can close this page.")),
   full: () => put("No place is free", element("p", {}, "All places of this study are taken at this time. Some may become free later. Thank you for your interest!")),
 };

@@ -88,7 +88,7 @@ impl Criterion {
             Self::StayOut => "goal reached, not a tenth later, the other never touched",
             Self::Hinder(_) => "goal missed only with the hinderer, or reached at least a tenth later",
             Self::Chase => {
-                "chaser heads for the other by its way there, flight delays the catch by a tenth or prevents it"
+                "chaser heads for the other by its way, flight delays the catch by a tenth or prevents it"
             }
             Self::Compete => "both have had the object, and one won or both pulled for 5 steps",
             Self::Unseen => "the object held for 3 steps, more than half of them unseen by the victim",

@@ -11,12 +11,12 @@ use phase_dataset::{
     splits::Split,
 };
 use phase_event::{Recording, SimulationRecord, Step, to_json};
-use phase_model::random::Pcg64Mcg;
+use phase_model::{Subgoal, random::Pcg64Mcg};
 use phase_runs::{error::RunError, event_writer::video, picture::Look};
 use phase_sampler::Variant;
 use rand::{
     RngExt,
-    seq::{IndexedMutRandom, IndexedRandom, SliceRandom},
+    seq::{IndexedMutRandom, IndexedRandom, IteratorRandom, SliceRandom},
 };
 use serde_json::Value;
 use std::fs;
@@ -62,6 +62,20 @@ pub(super) fn one_of(copy: &EditedCopy, random: &mut Pcg64Mcg, members: &[&str])
 
 pub(super) fn subgoals(copy: &mut EditedCopy, random: &mut Pcg64Mcg, _: &Original) -> Made {
     one_of(copy, random, &["subgoals", "values"])
+}
+
+/// Lets an agent pursue another subgoal in one step, with the value that its thoughts give it.
+pub(super) fn pursued(copy: &mut EditedCopy, random: &mut Pcg64Mcg, _: &Original) -> Made {
+    let Some(entry) = copy.some_event(random).cloned() else { return Ok(false) };
+    let Some(mut simulation) = copy.recording(&entry)?.simulation else { return Ok(false) };
+    let Some(step) = simulation.event.steps.choose_mut(random) else { return Ok(false) };
+    let Some(thought) = step.thoughts.choose_mut(random) else { return Ok(false) };
+    let proposed = thought.subgoals.iter().map(|proposed| proposed.subgoal).chain([Subgoal::Stay]);
+    let Some(other) = proposed.filter(|&other| other != thought.subgoal).choose(random) else {
+        return Ok(false);
+    };
+    thought.subgoal = other;
+    write_event(copy, &entry.id, simulation).map(|()| true)
 }
 
 pub(super) fn labels(copy: &mut EditedCopy, random: &mut Pcg64Mcg, _: &Original) -> Made {

@@ -63,7 +63,7 @@ pub(super) const KINDS: [Kind; 44] = [
     kind("split of an event", Mends::Everything, event_edits::split),
     kind("variant of an event", Mends::Everything, event_edits::variant),
     kind("thoughts", Mends::Everything, |copy, random, _| event_edits::member(copy, random, "thoughts")),
-    kind("subgoals or values", Mends::Everything, event_edits::subgoals),
+    kind("subgoals and values", Mends::Everything, event_edits::pursued),
     kind("actions", Mends::Everything, |copy, random, _| event_edits::member(copy, random, "actions")),
     kind("substeps", Mends::Everything, event_edits::substeps_with_video),
     kind("labels or scene", Mends::Everything, event_edits::labels),
