@@ -308,7 +308,7 @@ fn check_spread(coordinates: [Vec<f64>; 2], extent: f64) -> Result<(), TrackErro
     });
     if inner[0].max(inner[1]) * FAR_AWAY < extent {
         let rule =
-            "99 of 100 places lie within a hundredth of the whole area; leave out the others, or give bounds";
+            "98 of 100 places lie within a hundredth of the whole area; leave out the others, or give bounds";
         return Err(TrackError::Table(rule.into()));
     }
     Ok(())

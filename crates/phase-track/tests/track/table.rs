@@ -102,3 +102,39 @@ fn frames_are_counted_while_all_bodies_are_there() {
     let (_, tracking) = table(text.as_bytes(), "csv", &TableOptions::default()).expect("an event");
     assert_eq!((tracking.frames, tracking.frame_rate), (5, 1.0));
 }
+
+#[test]
+fn gaps_are_told() {
+    // Two lines a step for 4 s; body a is not there for 2 s of them.
+    let line = |k: u32, body: &str, x: u32| format!("{},{body},{x},5\n", f64::from(k) * 0.125);
+    let mut text = String::from("time,body,x,y\n");
+    for k in 0..=32 {
+        if !(9..=23).contains(&k) {
+            text += &line(k, "a", k);
+        }
+        text += &line(k, "b", 40 - k);
+    }
+    let (event, tracking) = table(text.as_bytes(), "csv", &TableOptions::default()).expect("an event");
+    assert_eq!(event.steps(), 16);
+    // Lines of a at 1 s and 3 s are within 0.25 s of the poses at 1.25 s and 2.75 s: five of 34 are hidden.
+    assert!((tracking.hidden - 5.0 / 34.0).abs() < 1e-9, "{}", tracking.hidden);
+    let whole: String = (0..=32).flat_map(|k| [line(k, "a", k), line(k, "b", 40 - k)]).collect();
+    let (_, tracking) =
+        table(format!("time,body,x,y\n{whole}").as_bytes(), "csv", &TableOptions::default()).expect("whole");
+    assert!(tracking.hidden.abs() < 1e-9);
+}
+
+#[test]
+fn a_place_far_from_all_others_is_refused() {
+    let lines = |last: f64| {
+        let line = |k: u32| {
+            let x = if k == 100 { last } else { f64::from(k) };
+            format!("{k},a,{x},5\n{k},b,{},9\n", 200 - k)
+        };
+        (0..=200).map(line).collect::<String>()
+    };
+    let read = |last: f64| csv(&format!("time,body,x,y\n{}", lines(last)), &TableOptions::default());
+    assert!(read(100.0).is_ok());
+    let refused = read(1e308).expect_err("far away").to_string();
+    assert!(refused.contains("98 of 100 places lie within a hundredth of the whole area"), "{refused}");
+}
