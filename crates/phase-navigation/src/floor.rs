@@ -205,8 +205,8 @@ impl FloorField {
     /// The field of an area, or of a point, for a round body.
     ///
     /// The last leg leads to the point of the area that is nearest as the crow flies; where walls are in the
-    /// area, to the nearest one that can be seen. A half width that is negative or no number counts as 0; to an
-    /// area whose corners are exchanged there is no way.
+    /// area, to the nearest one that can be seen. A half width that is negative or no number counts as 0. To
+    /// an area whose corners are exchanged there is no way.
     #[must_use]
     pub fn new(floor: &Floor, target: impl Into<Area>, mover: Mover) -> Self {
         let half_width = mover.half_width.max(0.0);
