@@ -153,6 +153,19 @@ fn events_become_stimuli() {
     let run = table(&path.join("run/desc-motion_events.tsv"), '\t');
     let onsets: Vec<&str> = run[1..].iter().map(|row| row[0].as_str()).collect();
     assert_eq!(onsets, ["7.500", "8.500", "9.500"]);
+    // What is no longer shown has no regressors; a table that shows nothing is none.
+    let table_of = |rows: &str| format!("onset\tduration\tstim_file\n{rows}");
+    for (rows, out, kept) in [("7.5\t1.5\t", "cut", 2), ("7.5\tn/a\t", "whole", 3)] {
+        fs::write(path.join("run.tsv"), table_of(&format!("{rows}{source}.mp4\n"))).expect("written");
+        succeed(path, &[&shown[..shown.len() - 1], &[out]].concat());
+        let rows = table(&path.join(out).join("desc-motion_events.tsv"), '\t');
+        assert_eq!(rows.len() - 1, kept, "{out}");
+    }
+    for (rows, rule) in [("", "shows no video"), ("1e308\t1\tx.mp4\n", "onset must be")] {
+        fs::write(path.join("run.tsv"), table_of(rows)).expect("written");
+        let told = refuse(path, &[&shown[..shown.len() - 1], &["none", "--quiet"]].concat());
+        assert!(told.contains("run.tsv") && told.contains(rule), "{told}");
+    }
 
     succeed(path, &["aoi", "data", "--id", source, "--out", "areas.csv"]);
     let areas = table(&path.join("areas.csv"), ',');

@@ -118,6 +118,11 @@ fn answers_to_sealed_motion_get_a_row_of_their_own() {
     let score = all.iter().find(|score| score["method"] == "mine").expect("the score");
     let seal = phase_files::checksum::sha256_hex(read("public/seal.json").as_bytes());
     assert_eq!(score["sealed"], json!({ "seal": seal, "events": 6 }));
+    // Answers about motion without all that can be judged say so, and are answers.
+    let mut said: Value = serde_json::from_str(&read(&answers)).expect("JSON");
+    said["events"][0]["not_judged"] = json!(["no walls were seen"]);
+    fs::write(path.join("said.json"), said.to_string()).expect("written");
+    succeed(path, &["eval", "goals", "--predictions", "said.json", "--events", "secret", "--out", "scored"]);
     let set = format!("sealed-{}", &seal[..12]);
     assert_eq!(score["set"], set);
     assert_eq!(read(&format!("checkout/data/leaderboard/{set}/goals/mine.json")), read(&answers));

@@ -151,6 +151,17 @@ fn walk(steps: usize, velocity: f32) -> Vec<EventWarning> {
 }
 
 #[test]
+fn rows_that_no_body_can_have_are_refused() {
+    for (column, number) in [(2, 340.0), (4, 1e6)] {
+        let mut value = file();
+        value["events"][0]["trajectory"]["agents"][0][2][column] = json!(number);
+        let told = from_json(&value.to_string()).expect_err("refused").to_string();
+        let rule = "must not be faster than 339 u/s, and its angle must be within 100000 rad";
+        assert!(told.contains("`trajectory.agents[0][2]`") && told.contains(rule), "{told}");
+    }
+}
+
+#[test]
 fn velocities_are_per_second_of_physics() {
     assert_eq!(walk(20, 6.0), []);
     let of_video = walk(20, 2.0);
