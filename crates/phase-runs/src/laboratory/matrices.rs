@@ -101,8 +101,8 @@ impl MatrixRun {
                 let valid = !name.is_empty() && phase_model::path::check_file_name(&name).is_ok();
                 if !valid || features.iter().any(|(known, _)| known.eq_ignore_ascii_case(&name)) {
                     return Err(RunError::Usage(format!(
-                        "{name:?}: names of matrices must be different, also in small letters, and fit as names \
-                         of files; give them as NAME=FILE"
+                        "{name:?}: names of matrices must be different, also in small letters, and fit as \
+                         names of files; give them as NAME=FILE"
                     )));
                 }
                 features.push((name, of));
