@@ -106,9 +106,11 @@ impl Planner {
     /// HP(gᵢ, gⱼ, αᵢⱼ, b) of Algorithm 1: the agent's best plan if the world is in this state, of which it
     /// observes these entities.
     ///
-    /// What it does not observe it still plans with, since the state says where it may be; but before it
-    /// rests because others do what is needed, it goes there to see that. [`Plan::NONE`] is the answer if the
-    /// state is not finite ([`State::is_finite`]) or a goal is about an object that does not exist.
+    /// The plan uses the positions of all entities, observed or not. An agent that would rest because the
+    /// other does what is needed, or because an object is where it should be, first goes to observe that.
+    ///
+    /// The plan is [`Plan::NONE`] if the state is not finite ([`State::is_finite`]) or a goal is about an
+    /// object that does not exist.
     #[must_use]
     pub fn plan(&self, state: &State, observed: BodySet) -> Plan {
         self.plan_ceding(state, observed, None)

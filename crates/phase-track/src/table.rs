@@ -205,8 +205,8 @@ fn each_line(
             if line.trim_ascii().is_empty() {
                 continue;
             }
-            let value = json::parse_line(line, k + 1)
-                .map_err(|error| TrackError::Table(foreign::table(&error.to_string())))?;
+            let value =
+                json::parse_line(line, k + 1).map_err(|error| TrackError::Table(error.to_string()))?;
             let member =
                 |path: &String| match path.split('.').try_fold(&value, |value, key| value.get(key))? {
                     Value::String(text) => Some(text.clone()),

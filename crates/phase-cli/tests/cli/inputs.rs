@@ -77,7 +77,7 @@ fn no_result_lies_in_a_dataset() {
     let eval = ["eval", "goals", "--method", "chance", "--events", ".", "--out", "../scores", "--json"];
     succeed(&path.join("data"), &eval);
     fs::remove_dir_all(path.join("scores")).expect("removed");
-    assert_eq!(tree(path), before, "stdout is no file");
+    assert_eq!(tree(path), before, "results on standard output write no file");
     // Other programs have files of the manifest's name.
     succeed(path, &["rdm", "t.csv", "--out", "web/matrices"]);
 }
